@@ -1,0 +1,21 @@
+#include "controllers/motion.h"
+
+#include <array>
+
+#include "controllers/s_curve.h"
+#include "controllers/sine.h"
+#include "controllers/triangle.h"
+
+namespace feedtwin::controllers {
+
+std::span<const MotionKind> motion_kinds() noexcept {
+  static constexpr std::array kinds{
+      MotionKind{"triangle", "to and fro at constant speed, with short ramps: the source's square velocity profile",
+                 make_triangle},
+      MotionKind{"sine", "sinusoidal velocity: the source's second motion", make_sine},
+      MotionKind{"s_curve", "jerk-limited moves from end to end with dwells", make_s_curve},
+  };
+  return kinds;
+}
+
+}  // namespace feedtwin::controllers

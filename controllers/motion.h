@@ -1,0 +1,38 @@
+#pragma once
+// Reference motions of one axis: the source's two reciprocating ones (section 3.3), S-curve moves, and others that
+// identification asks for. All start and end at rest where their name does not say otherwise.
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "controllers/reference.h"
+
+namespace feedtwin::controllers {
+
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  /// Where the axis should be `time_s` after the start. Wait-free.
+  [[nodiscard]] virtual Reference at(double time_s) const noexcept = 0;
+};
+
+/// How far and how fast a motion goes.
+struct MotionSettings {
+  double centre_m = 0.0;
+  double amplitude_m = 0.02;           ///< half of the travel
+  double speed_m_per_s = 0.03;         ///< largest speed
+  double acceleration_m_per_s2 = 1.0;  ///< largest, where the motion has one
+  double jerk_m_per_s3 = 50.0;         ///< largest, S-curve only
+  double dwell_s = 0.2;                ///< pause at the ends, S-curve only
+};
+
+struct MotionKind {
+  std::string_view name, meaning;
+  std::unique_ptr<Motion> (*make)(const MotionSettings& settings);
+};
+
+/// Every motion by its name: one line each in motion.cpp.
+[[nodiscard]] std::span<const MotionKind> motion_kinds() noexcept;
+
+}  // namespace feedtwin::controllers

@@ -1,0 +1,12 @@
+#pragma once
+// What a controller is asked to follow at an instant.
+
+namespace feedtwin::controllers {
+
+struct Reference {
+  double position_m = 0.0;
+  double velocity_m_per_s = 0.0;
+  double acceleration_m_per_s2 = 0.0;
+};
+
+}  // namespace feedtwin::controllers

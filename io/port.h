@@ -1,0 +1,92 @@
+#pragma once
+// How a controller reaches the plant, whatever the wire. One interface for every port; the loop knows nothing else.
+//
+// Set-up calls may block, allocate and throw PortError. receive() and send() run inside the tick: wait-free, bounded, no
+// system call that may block. What goes wrong at run time is a counter with a one-line meaning, never an exception.
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plant/realtime.h"
+
+namespace feedtwin::io {
+
+inline constexpr int max_axes = 64;
+
+/// The newest torque request for one axis.
+struct AxisRequest {
+  double torque_Nm = 0.0;
+  std::uint32_t sequence = 0;   ///< the controller's count of its own commands
+  std::int64_t arrival_ns = 0;  ///< CLOCK_MONOTONIC, when it came off the wire
+  bool enable = false;
+  bool quick_stop = false;
+  bool fault_reset = false;  ///< a rising edge clears a watchdog fault
+};
+
+/// What the loop makes of an axis's requests (rt/command_guard), in the order of increasing alarm.
+enum class DriveState : std::uint8_t { disabled, enabled, quick_stop, fault };
+
+/// One axis at the end of a tick.
+struct AxisReport {
+  std::int64_t encoder_counts = 0;
+  double velocity_m_per_s = 0.0;
+  double torque_Nm = 0.0;
+  std::int64_t input_age_ns = 0;  ///< from arrival to use; negative: nothing has come yet
+  std::uint32_t sequence = 0;     ///< of the request in force
+  DriveState state = DriveState::disabled;
+  bool index_passed = false;
+  bool at_low_stop = false, at_high_stop = false;
+};
+
+struct TickReport {
+  std::uint64_t tick = 0;
+  std::uint64_t missed_ticks = 0;
+  std::int64_t start_ns = 0;  ///< CLOCK_MONOTONIC
+};
+
+/// Something that was counted, for the run's verdict.
+struct Counter {
+  std::string name, meaning;
+  std::uint64_t value = 0;
+  bool loses_data = false;  ///< more than zero: the run is not sound
+};
+
+/// Set-up went wrong: one line for the user.
+class PortError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Port {
+ public:
+  Port() = default;
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+  virtual ~Port() = default;
+
+  [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+  /// Set-up: open devices, start threads. Throws PortError.
+  virtual void open() = 0;
+  /// Before the end: stop threads, close devices. Safe to call twice.
+  virtual void close() noexcept = 0;
+
+  /// Drain what has come, at most a bounded number of frames, and keep the newest request of each axis.
+  /// @return a bit for each axis that has a new one.
+  virtual std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME = 0;
+  /// Give out the tick's result.
+  virtual void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME = 0;
+
+  /// Lockstep only: wait until a request has come or the time has passed. @return false on time-out, or if this port can't
+  /// step the plant.
+  virtual bool wait_for_request(std::int64_t /*until_ns*/) noexcept { return false; }
+  [[nodiscard]] virtual bool can_step_the_plant() const noexcept { return false; }
+
+  /// Not on the tick.
+  [[nodiscard]] virtual std::vector<Counter> counters() const { return {}; }
+};
+
+}  // namespace feedtwin::io

@@ -1,0 +1,214 @@
+#pragma once
+// One tick of Eq. 1: a linearly implicit mid-point rule with the friction of each sub-step in closed form.
+//
+// Over a sub-step h the mean velocity w obeys   2 M (w - v) / h = drive - s F_M - B w - F_B(w) - F_L(w) - ...
+// which is solved by one Newton step from the predicted mean velocity v + a h / 2; then v' = 2 w - v, x' = x + h w.
+// Because M (v'^2 - v^2) / 2 = M w (v' - v), work in = kinetic + stored + lost holds in every sub-step.
+//
+// Coulomb friction is set-valued and stays so: a sub-step never runs across a reversal. Where the velocity would change
+// its sign, the sub-step ends at the zero crossing; there the axis sticks if the motor's Coulomb friction can hold the rest
+// (it then stays exactly at rest), or sets off in the direction of the net force.
+//
+// Bounded: at most substeps + extra_substeps evaluations a tick, no allocation, no branch on data other than events.
+
+#include "plant/axis_model.h"
+
+namespace feedtwin::plant {
+
+/// Sub-steps a tick. Pre-sliding oscillates at up to 120 Hz and wants more of them than sliding does.
+struct Resolution {
+  int sliding = 2;
+  int presliding = 5;
+  double presliding_below_m_per_s = 3e-3;
+};
+inline constexpr Resolution one_count{};                    ///< position within one count of 76 nm
+inline constexpr Resolution tenth_of_a_count{7, 14, 3e-3};  ///< within a tenth
+inline constexpr int extra_substeps = 12;                   ///< for reversals within a tick
+
+/// What acts in a sub-step beside Eq. 1's own terms.
+template <class Real>
+struct ExtraLoad {
+  Real force_N{};  ///< against positive motion, at the predicted mean velocity
+  Real force_slope_Ns_per_m{};
+  FrictionScale<Real> scale{};
+};
+
+/// No effect beyond the paper's model. Effects offer the same two functions (plant/effects).
+template <class Real>
+struct NoEffects {
+  [[nodiscard]] ExtraLoad<Real> before(const AxisState<Real>& /*start*/, const Sliding<Real>& /*predicted*/) noexcept {
+    return {};
+  }
+  void after(const AxisState<Real>& /*end*/, Real /*mean_velocity_m_per_s*/, Real /*h_s*/) noexcept {}
+};
+
+/// End stops: a spring and damper beyond either end, pushing only inwards.
+template <class Real>
+[[nodiscard]] inline ExtraLoad<Real> end_stop_load(const AxisModel<Real>& model, Real position_m, Real mean_velocity_m_per_s,
+                                                   Real h_s) noexcept {
+  const Real zero{};
+  const Real above = larger<Real>(position_m - model.stop_high_m, zero);
+  const Real below = smaller<Real>(position_m - model.stop_low_m, zero);
+  const Real depth = above + below;
+  const auto touching = depth != 0.0;
+  const Real stiffness = touching ? model.stop_stiffness_N_per_m : zero;
+  const Real damping = touching ? model.stop_damping_Ns_per_m : zero;
+  const Real slope = damping + 0.5 * h_s * stiffness;
+  const Real force = stiffness * depth + slope * mean_velocity_m_per_s;
+  const auto pulls = force * depth < 0.0;
+  return {pulls ? zero : force, pulls ? zero : slope, {}};
+}
+
+namespace detail {
+
+template <class Real>
+struct Trial {
+  Real mean_velocity_m_per_s, velocity_m_per_s;  ///< over the sub-step, at its end
+  ContactsStep<Real> contacts;
+  Real stop_force_N;
+  Real h_s, per_h_Hz;
+};
+
+/// Net force at rest without the motor's Coulomb friction: what that friction would have to hold.
+template <class Real, class Effects>
+[[nodiscard]] inline Real net_force_at_rest_N(const AxisModel<Real>& model, const AxisState<Real>& state, Effects& effects,
+                                              Real h_s) noexcept {
+  const Real bristles = model.contacts.stiffness_force_N(state.screw_bristle_m, state.guide_bristle_m);
+  const Real extra = effects.before(state, {Real{} + 1.0, Real{}, h_s, 1.0 / h_s}).force_N;
+  return state.drive_N - bristles - extra - end_stop_load<Real>(model, state.position_m, Real{}, h_s).force_N;
+}
+
+/// One Newton step from the predicted mean velocity.
+template <class Real, class Effects>
+[[nodiscard, gnu::always_inline]] inline Trial<Real> solve(const AxisModel<Real>& model, const AxisState<Real>& state,
+                                                           Effects& effects, Real sign, Real h_s) noexcept {
+  const Real per_h_Hz = 1.0 / h_s;
+  const Real v = state.velocity_m_per_s;
+  const MaskOf<Real> positive = sign > 0.0;
+  const Real speed = larger<Real>(sign * (v + 0.5 * h_s * state.acceleration_m_per_s2), Real{});
+  const Real w = sign * speed;
+  const Sliding<Real> predicted{sign, speed, h_s, per_h_Hz};
+
+  const ExtraLoad<Real> extra = effects.before(state, predicted);
+  const ExtraLoad<Real> stop = end_stop_load<Real>(model, state.position_m, w, h_s);
+  ContactsStep<Real> contacts = model.contacts.step(predicted, state.screw_bristle_m, state.guide_bristle_m, extra.scale);
+
+  const Real damping = positive ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m;
+  const Real coulomb = positive ? model.coulomb_pos_N : -model.coulomb_neg_N;
+  const Real inertia = 2.0 * model.mass_kg * per_h_Hz;
+  const Real resisting =
+      coulomb + damping * w + contacts.screw_force_N + contacts.guide_force_N + extra.force_N + stop.force_N;
+  const Real slope = inertia + damping + contacts.screw_force_slope_Ns_per_m + contacts.guide_force_slope_Ns_per_m +
+                     extra.force_slope_Ns_per_m + stop.force_slope_Ns_per_m;
+  const Real correction = (state.drive_N - resisting - inertia * (w - v)) / slope;
+
+  contacts.screw_force_N += contacts.screw_force_slope_Ns_per_m * correction;
+  contacts.guide_force_N += contacts.guide_force_slope_Ns_per_m * correction;
+  contacts.screw_bristle_m += contacts.screw_bristle_slope_s * correction;
+  contacts.guide_bristle_m += contacts.guide_bristle_slope_s * correction;
+  const Real mean = w + correction;
+  return {mean, 2.0 * mean - v, contacts, stop.force_N + stop.force_slope_Ns_per_m * correction, h_s, per_h_Hz};
+}
+
+/// The sub-step again, only as far as the zero crossing. Rare, so out of line: the common path stays in registers.
+template <class Real, class Effects>
+[[nodiscard, gnu::noinline]] Trial<Real> solve_to_reversal(const AxisModel<Real>& model, AxisState<Real> state,
+                                                           Effects& effects, Real sign, Trial<Real> full,
+                                                           MaskOf<Real> shortened) noexcept {
+  const Real v = state.velocity_m_per_s;
+  const Real slope = (full.velocity_m_per_s - v) * full.per_h_Hz;
+  const Real fraction = larger<Real>(v / (v - full.velocity_m_per_s), Real{} + 1e-9);
+  state.acceleration_m_per_s2 = shortened ? slope : state.acceleration_m_per_s2;
+  Trial<Real> trial = solve<Real>(model, state, effects, sign, shortened ? full.h_s * fraction : full.h_s);
+  trial.velocity_m_per_s = shortened ? Real{} : trial.velocity_m_per_s;
+  return trial;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void account(const AxisModel<Real>& model, const Trial<Real>& trial, MaskOf<Real> positive,
+                                           Real w, AxisLosses<Real>& losses) noexcept {
+  const Real path_m = w * trial.h_s;
+  const Real forth_m = positive ? path_m : Real{};
+  const Real back_m = path_m - forth_m;
+  losses.motor_J += model.coulomb_pos_N * forth_m - model.coulomb_neg_N * back_m +
+                    w * (model.damping_pos_Ns_per_m * forth_m + model.damping_neg_Ns_per_m * back_m);
+  losses.screw_J += trial.contacts.screw_force_N * path_m;
+  losses.guide_J += trial.contacts.guide_force_N * path_m;
+  losses.stop_J += trial.stop_force_N * path_m;
+  losses.travel_pos_m += forth_m;
+  losses.travel_neg_m -= back_m;
+  losses.speed_travel_pos_m2_per_s += w * forth_m;
+  losses.speed_travel_neg_m2_per_s += w * back_m;
+}
+
+/// One sub-step of at most h; returns the time that it took.
+template <class Real, class Effects>
+[[gnu::always_inline]] inline Real substep(const AxisModel<Real>& model, AxisState<Real>& state, AxisLosses<Real>& losses,
+                                           Effects& effects, Real h_s) noexcept {
+  using Mask = MaskOf<Real>;
+  Mask idle = !(h_s > 0.0);
+  Real sign = state.velocity_m_per_s > 0.0 ? Real{} + 1.0 : Real{} - 1.0;
+  const Mask at_rest = state.velocity_m_per_s == 0.0;
+  if (any(at_rest)) {
+    const Real net = net_force_at_rest_N(model, state, effects, h_s);
+    const Mask forward = net > model.coulomb_pos_N;
+    const Mask backward = net < -model.coulomb_neg_N;
+    const Mask stuck = at_rest & !(forward | backward);
+    const Real beyond = forward ? net - model.coulomb_pos_N : net + model.coulomb_neg_N;
+    sign = at_rest ? (forward ? Real{} + 1.0 : Real{} - 1.0) : sign;
+    state.acceleration_m_per_s2 = at_rest ? beyond / model.mass_kg : state.acceleration_m_per_s2;
+    state.acceleration_m_per_s2 = stuck ? Real{} : state.acceleration_m_per_s2;
+    idle = idle | stuck;
+    if (!any(Mask(!idle))) {
+      effects.after(state, Real{}, h_s);
+      return h_s;
+    }
+  }
+
+  Trial<Real> trial = solve<Real>(model, state, effects, sign, h_s);
+  const Mask crossing = (sign * trial.velocity_m_per_s < 0.0) & !idle;
+  if (any(crossing)) {
+    const Mask rebound = crossing & (state.velocity_m_per_s == 0.0);  // out of rest and back within one: a rest
+    idle = idle | rebound;
+    state.acceleration_m_per_s2 = rebound ? Real{} : state.acceleration_m_per_s2;
+    trial = solve_to_reversal<Real>(model, state, effects, sign, trial, crossing & !rebound);
+  }
+  const Real w = idle ? Real{} : trial.mean_velocity_m_per_s;
+  account<Real>(model, trial, sign > 0.0, w, losses);
+  const Real acceleration = 2.0 * (w - state.velocity_m_per_s) * trial.per_h_Hz;
+  state.position_m += w * trial.h_s;
+  state.acceleration_m_per_s2 = idle ? state.acceleration_m_per_s2 : acceleration;
+  state.velocity_m_per_s = idle ? state.velocity_m_per_s : trial.velocity_m_per_s;
+  state.screw_bristle_m = idle ? state.screw_bristle_m : trial.contacts.screw_bristle_m;
+  state.guide_bristle_m = idle ? state.guide_bristle_m : trial.contacts.guide_bristle_m;
+  effects.after(state, w, trial.h_s);
+  return trial.h_s;
+}
+
+}  // namespace detail
+
+/// Advance by one tick under the constant net applied force `drive_N` (motor less cutting force).
+/// Returns what the components took in it. Wait-free; at most sub-steps + extra_substeps evaluations.
+template <class Real, class Effects>
+inline AxisLosses<Real> integrate_tick(const AxisModel<Real>& model, AxisState<Real>& axis_state, Effects& effects,
+                                       Real drive_N, double tick_s, const Resolution& resolution) noexcept {
+  AxisState<Real> state = axis_state;  // a copy, so that it stays in registers
+  AxisLosses<Real> taken{};
+  state.acceleration_m_per_s2 += (drive_N - state.drive_N) / model.mass_kg;
+  state.drive_N = drive_N;
+  const Real speed = absolute<Real>(state.velocity_m_per_s);
+  const Real nominal_s = speed > resolution.presliding_below_m_per_s ? Real{} + tick_s / resolution.sliding
+                                                                     : Real{} + tick_s / resolution.presliding;
+  const int most =
+      (resolution.presliding > resolution.sliding ? resolution.presliding : resolution.sliding) + extra_substeps;
+  const double rounding_s = 1e-9 * tick_s;
+  Real left_s = Real{} + tick_s;
+  for (int i = 0; i < most && any(left_s > 0.0); ++i) {
+    left_s -= detail::substep<Real>(model, state, taken, effects, smaller<Real>(nominal_s, left_s));
+    left_s = left_s > rounding_s ? left_s : Real{};
+  }
+  axis_state = state;
+  return taken;
+}
+
+}  // namespace feedtwin::plant

@@ -1,0 +1,1 @@
+#include "rt/tick_clock.h"

@@ -1,0 +1,20 @@
+#pragma once
+// Axis files: the keys of plant/parameter_table, in TOML.
+
+#include <string>
+
+#include "plant/parameters.h"
+#include "tools/config/toml_file.h"
+
+namespace feedtwin::tools {
+
+/// The axis in an open file; throws InputError. Leaves other keys to the caller, who then calls reject_unknown().
+[[nodiscard]] plant::AxisParameters axis_from(TomlFile& file);
+
+/// A file that holds an axis and nothing else.
+[[nodiscard]] plant::AxisParameters read_axis_file(const std::string& path);
+
+/// Writes every key, each with what it means. Throws InputError when the file can't be written.
+void write_axis_file(const std::string& path, plant::AxisParameters parameters);
+
+}  // namespace feedtwin::tools

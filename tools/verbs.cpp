@@ -1,0 +1,16 @@
+#include <array>
+
+#include "tools/simulate.h"
+#include "tools/verb.h"
+
+namespace feedtwin::tools {
+
+std::span<const Verb> verbs() noexcept {
+  static constexpr std::array all{
+      Verb{"simulate", "controller and plant off line, faster than real time, deterministic; writes a recording",
+           prepare_simulate},
+  };
+  return all;
+}
+
+}  // namespace feedtwin::tools
