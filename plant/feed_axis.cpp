@@ -24,11 +24,9 @@ void FeedAxis::place(double position_m, double velocity_m_per_s) noexcept {
   throughput_J_ += 0.5 * model_.mass_kg * initial_speed_squared_m2_per_s2_;
 }
 
-FeedAxis::Drive FeedAxis::accept(const AxisCommand& command) noexcept {
-  const auto within = [this](double value, double limit) {
-    const double taken = std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
-    if (taken != value) ++clipped_inputs_;
-    return taken;
+FeedAxis::Drive FeedAxis::accept(const AxisCommand& command) const noexcept {
+  const auto within = [](double value, double limit) {
+    return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
   };
   return {within(command.torque_Nm, parameters_.axis.torque_limit_Nm),
           within(command.cutting_force_N, largest_cutting_force_N)};
@@ -43,31 +41,34 @@ double FeedAxis::electrical_loss_J(const AxisLosses<double>& losses, double dura
 }
 
 const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noexcept {
-  drive_ = accept(command);
-  const double motor_force_N = drive_.torque_Nm * model_.transmission_rad_per_m;
+  const Drive drive = accept(command);
+  clipped_inputs_ += (drive.torque_Nm != command.torque_Nm) + (drive.cutting_force_N != command.cutting_force_N);
+  const double motor_force_N = drive.torque_Nm * model_.transmission_rad_per_m;
   const double before_m = state_.position_m;
   const AxisLosses<double> taken =
-      integrate_tick<double>(model_, state_, effects_, motor_force_N - drive_.cutting_force_N, tick_s, resolution_);
+      integrate_tick<double>(model_, state_, effects_, motor_force_N - drive.cutting_force_N, tick_s, resolution_);
   losses_ += taken;
   elapsed_s_ += tick_s;
   const double travel_m = state_.position_m - before_m;
   const double work_J = motor_force_N * travel_m;
   input_work_J_ += work_J;
-  throughput_J_ += std::abs(work_J) + std::abs(drive_.cutting_force_N * travel_m);
-  cutting_J_ += drive_.cutting_force_N * travel_m;
+  throughput_J_ += std::abs(work_J) + std::abs(drive.cutting_force_N * travel_m);
+  cutting_J_ += drive.cutting_force_N * travel_m;
 
   const std::int64_t counts = encoder_.counts(state_.position_m);
   signals_.index_passed = encoder_.index_between(signals_.encoder_counts, counts);
   signals_.encoder_counts = counts;
   signals_.position_m = state_.position_m;
   signals_.velocity_m_per_s = state_.velocity_m_per_s;
-  signals_.torque_Nm = drive_.torque_Nm;
+  signals_.torque_Nm = drive.torque_Nm;
   signals_.power_W = (electrical_loss_J(taken, tick_s) + work_J) / tick_s;
   signals_.metered_power_W = power_meter_.update(signals_.power_W, tick_s);
   return signals_;
 }
 
-ForceSignals FeedAxis::force_sensors() const noexcept {
+ForceSignals FeedAxis::force_sensors(const AxisCommand& acting) const noexcept {
+  const Drive drive = accept(acting);
+  const double drive_N = drive.torque_Nm * model_.transmission_rad_per_m - drive.cutting_force_N;
   const double v = state_.velocity_m_per_s;
   const bool positive = v > 0.0;
   const auto& both = model_.contacts.both;
@@ -78,9 +79,9 @@ ForceSignals FeedAxis::force_sensors() const noexcept {
   if (v != 0.0) {
     const double coulomb = positive ? model_.coulomb_pos_N : -model_.coulomb_neg_N;
     const double damping = positive ? model_.damping_pos_Ns_per_m : model_.damping_neg_Ns_per_m;
-    acceleration = (state_.drive_N - coulomb - damping * v - friction[0] - friction[1] - stop_N) / model_.mass_kg;
+    acceleration = (drive_N - coulomb - damping * v - friction[0] - friction[1] - stop_N) / model_.mass_kg;
   }
-  const double table_N = model_.table_mass_kg * acceleration + friction[1] + stop_N + drive_.cutting_force_N;
+  const double table_N = model_.table_mass_kg * acceleration + friction[1] + stop_N + drive.cutting_force_N;
   const double screw_N = model_.screw_mass_kg * acceleration + friction[0] + table_N;
   return {screw_N / model_.transmission_rad_per_m, table_N};
 }

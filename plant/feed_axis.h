@@ -29,8 +29,9 @@ class FeedAxis {
   [[nodiscard]] const AxisModel<double>& model() const noexcept { return model_; }
   [[nodiscard]] const AxisParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] const Encoder& encoder() const noexcept { return encoder_; }
-  /// Torque and force sensor now, under the last command. Costs a third of a step, so only where it is asked for.
-  [[nodiscard]] ForceSignals force_sensors() const noexcept;
+  /// Torque and force sensor at this instant with `acting` as the command, as a recording samples them at the start of a
+  /// tick. Costs a third of a step, so only where it is asked for. Wait-free.
+  [[nodiscard]] ForceSignals force_sensors(const AxisCommand& acting) const noexcept;
   [[nodiscard]] AxisEnergy energy() const noexcept;
   [[nodiscard]] std::int64_t clipped_inputs() const noexcept { return clipped_inputs_; }
 
@@ -41,7 +42,7 @@ class FeedAxis {
   struct Drive {
     double torque_Nm, cutting_force_N;
   };
-  [[nodiscard]] Drive accept(const AxisCommand& command) noexcept;
+  [[nodiscard]] Drive accept(const AxisCommand& command) const noexcept;
   [[nodiscard]] double electrical_loss_J(const AxisLosses<double>& losses, double duration_s) const noexcept;
 
   AxisParameters parameters_;
@@ -53,7 +54,6 @@ class FeedAxis {
   Encoder encoder_;
   PowerMeter power_meter_;
   AxisSignals signals_;
-  Drive drive_{};
   double elapsed_s_ = 0.0;
   double input_work_J_ = 0.0;
   double throughput_J_ = 0.0;
