@@ -141,12 +141,12 @@ template <class Real>
   losses.speed_travel_neg_m2_per_s += w * back_m;
 }
 
-/// One sub-step of at most h; returns the time that it took.
+/// One sub-step of at most h > 0; returns the time that it took. Lanes that have `ended` their tick stand still.
 template <class Real, class Effects>
 [[gnu::always_inline]] inline Real substep(const AxisModel<Real>& model, AxisState<Real>& state, AxisLosses<Real>& losses,
-                                           Effects& effects, Real h_s) noexcept {
+                                           Effects& effects, Real h_s, MaskOf<Real> ended) noexcept {
   using Mask = MaskOf<Real>;
-  Mask idle = !(h_s > 0.0);
+  Mask idle = ended;
   Real sign = state.velocity_m_per_s > 0.0 ? Real{} + 1.0 : Real{} - 1.0;
   const Mask at_rest = state.velocity_m_per_s == 0.0;
   if (any(at_rest)) {
@@ -160,8 +160,9 @@ template <class Real, class Effects>
     state.acceleration_m_per_s2 = stuck ? Real{} : state.acceleration_m_per_s2;
     idle = idle | stuck;
     if (!any(Mask(!idle))) {
-      effects.after(state, Real{}, h_s);
-      return h_s;
+      const Real taken_s = ended ? Real{} : h_s;
+      effects.after(state, Real{}, taken_s);
+      return taken_s;
     }
   }
 
@@ -181,8 +182,9 @@ template <class Real, class Effects>
   state.velocity_m_per_s = idle ? state.velocity_m_per_s : trial.velocity_m_per_s;
   state.screw_bristle_m = idle ? state.screw_bristle_m : trial.contacts.screw_bristle_m;
   state.guide_bristle_m = idle ? state.guide_bristle_m : trial.contacts.guide_bristle_m;
-  effects.after(state, w, trial.h_s);
-  return trial.h_s;
+  const Real taken_s = ended ? Real{} : trial.h_s;
+  effects.after(state, w, taken_s);
+  return taken_s;
 }
 
 }  // namespace detail
@@ -204,7 +206,9 @@ inline AxisLosses<Real> integrate_tick(const AxisModel<Real>& model, AxisState<R
   const double rounding_s = 1e-9 * tick_s;
   Real left_s = Real{} + tick_s;
   for (int i = 0; i < most && any(left_s > 0.0); ++i) {
-    left_s -= detail::substep<Real>(model, state, taken, effects, smaller<Real>(nominal_s, left_s));
+    const MaskOf<Real> ended = !(left_s > 0.0);
+    const Real h_s = ended ? nominal_s : smaller<Real>(nominal_s, left_s);
+    left_s -= detail::substep<Real>(model, state, taken, effects, h_s, ended);
     left_s = left_s > rounding_s ? left_s : Real{};
   }
   axis_state = state;
