@@ -24,7 +24,8 @@ struct AxisRequest {
   std::int64_t arrival_ns = 0;  ///< CLOCK_MONOTONIC, when it came off the wire
   bool enable = false;
   bool quick_stop = false;
-  bool fault_reset = false;  ///< a rising edge clears a watchdog fault
+  bool fault_reset = false;    ///< a rising edge clears a watchdog fault
+  std::int64_t reply_ns = -1;  ///< from the controller's trigger (SYNC, poll) to the reply's leaving; negative: not measured
 };
 
 /// What the loop makes of an axis's requests (rt/command_guard), in the order of increasing alarm.
@@ -53,6 +54,15 @@ struct Counter {
   std::string name, meaning;
   std::uint64_t value = 0;
   bool loses_data = false;  ///< more than zero: the run is not sound
+};
+
+/// What can be broken on purpose in an axis's encoder (io/faults).
+enum class EncoderFault : std::uint8_t { dead_a, dead_b, dead_index, swapped_ab, lost_counts, missing_index };
+
+/// Something that happened in a port and that somebody should read of.
+struct PortEvent {
+  double time_s = 0.0;  ///< of the run: tick number times tick length
+  std::string text;
 };
 
 /// Set-up went wrong: one line for the user.
@@ -85,8 +95,17 @@ class Port {
   virtual bool wait_for_request(std::int64_t /*until_ns*/) noexcept { return false; }
   [[nodiscard]] virtual bool can_step_the_plant() const noexcept { return false; }
 
+  /// Break the encoder of an axis on its own lines, or mend it. `amount`: counts to lose. Wait-free.
+  /// @return false if this port has no lines; the fault is then worked into the counts that it is given.
+  virtual bool break_encoder(EncoderFault /*fault*/, int /*axis*/, bool /*on*/,
+                             std::int64_t /*amount*/) noexcept FEEDTWIN_REALTIME {
+    return false;
+  }
+
   /// Not on the tick.
   [[nodiscard]] virtual std::vector<Counter> counters() const { return {}; }
+  /// What has happened since the last call. Not on the tick, from one thread at a time.
+  [[nodiscard]] virtual std::vector<PortEvent> take_events() { return {}; }
 };
 
 }  // namespace feedtwin::io
