@@ -20,8 +20,9 @@ inline constexpr int max_axes = 64;
 /// The newest torque request for one axis.
 struct AxisRequest {
   double torque_Nm = 0.0;
-  std::uint32_t sequence = 0;   ///< the controller's count of its own commands
-  std::int64_t arrival_ns = 0;  ///< CLOCK_MONOTONIC, when it came off the wire
+  std::uint32_t sequence = 0;    ///< the controller's count of its own commands
+  std::int64_t arrival_ns = 0;   ///< CLOCK_MONOTONIC, when it came off the wire
+  std::int64_t watchdog_ns = 0;  ///< the controller's own watchdog time; 0: the configuration's
   bool enable = false;
   bool quick_stop = false;
   bool fault_reset = false;    ///< a rising edge clears a watchdog fault

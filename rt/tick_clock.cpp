@@ -40,6 +40,10 @@ TickStart GridClock::wait() noexcept {
   return start;
 }
 
+std::int64_t LockstepClock::start() noexcept {
+  return monotonic_ns();
+}
+
 TickStart LockstepClock::wait() noexcept {
   TickStart start;
   start.planned_ns = monotonic_ns();

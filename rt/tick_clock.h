@@ -27,8 +27,8 @@ struct TickStart {
 class TickClock {
  public:
   virtual ~TickClock() = default;
-  /// Set-up: the first tick is to begin one period from now.
-  virtual void start() noexcept = 0;
+  /// Set-up: the first tick is to begin one period from now. @return now, on this clock's scale
+  virtual std::int64_t start() noexcept = 0;
   /// Wait for the next tick. The one place in the loop that may sleep; bounded by the period or the time-out.
   [[nodiscard]] virtual TickStart wait() noexcept = 0;
 };
@@ -37,7 +37,7 @@ class TickClock {
 class GridClock final : public TickClock {
  public:
   GridClock(std::int64_t period_ns, Overrun overrun) noexcept : period_ns_(period_ns), overrun_(overrun) {}
-  void start() noexcept override;
+  std::int64_t start() noexcept override;
   [[nodiscard]] TickStart wait() noexcept override;
 
  private:
@@ -51,7 +51,7 @@ class LockstepClock final : public TickClock {
  public:
   LockstepClock(io::Port& port, std::int64_t timeout_ns, const std::atomic<bool>& stop) noexcept
       : port_(port), timeout_ns_(timeout_ns), stop_(stop) {}
-  void start() noexcept override {}
+  std::int64_t start() noexcept override;
   [[nodiscard]] TickStart wait() noexcept override;
 
  private:
@@ -64,7 +64,7 @@ class LockstepClock final : public TickClock {
 class OfflineClock final : public TickClock {
  public:
   explicit OfflineClock(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
-  void start() noexcept override { next_ns_ = 0; }
+  std::int64_t start() noexcept override { return next_ns_ = 0; }
   [[nodiscard]] TickStart wait() noexcept override;
 
  private:

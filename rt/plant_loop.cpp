@@ -1,0 +1,117 @@
+#include "rt/plant_loop.h"
+
+#include <cmath>
+
+#include "rt/monotonic.h"
+
+namespace feedtwin::rt {
+
+PlantLoop::PlantLoop(std::vector<plant::FeedAxis>& axes, io::Port& commanding, std::vector<io::Port*> listening,
+                     TickClock& clock, const LoopSettings& settings)
+    : axes_(axes),
+      commanding_(commanding),
+      listening_(std::move(listening)),
+      clock_(clock),
+      settings_(settings),
+      requests_(axes.size()),
+      reports_(axes.size()),
+      rows_(axes.size()),
+      records_(settings.record_capacity * axes.size()),
+      events_(1024),
+      stats_(std::make_unique<TickStats>()) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    guards_.emplace_back(GuardLimits{axes[i].parameters().axis.torque_limit_Nm, settings.watchdog_ns});
+    reports_[i].encoder_counts = axes[i].signals().encoder_counts;
+  }
+}
+
+void PlantLoop::run(const std::atomic<bool>& stop) noexcept {
+  const io::TickReport before{0, 0, clock_.start()};
+  commanding_.send(before, reports_);  // what the controller sees before the first tick
+  while (!stop.load(std::memory_order_relaxed) && (settings_.ticks == 0 || stats_->ticks < settings_.ticks)) {
+    const TickStart start = clock_.wait();
+    if (!start.proceed) {
+      stats_->missed_ticks += start.missed;
+      stats_->stopped_by_overrun = start.missed > 0;
+      break;
+    }
+    tick(start);
+  }
+}
+
+void PlantLoop::tick(const TickStart& start) noexcept {
+  const std::int64_t late_ns = start.woken_ns - start.planned_ns;
+  lateness_us_ = static_cast<double>(late_ns) * 1e-3;
+  stats_->wakeup.record(late_ns);
+  stats_->missed_ticks += start.missed;
+  if (start.missed > 0) note(EventKind::missed_ticks, -1, static_cast<double>(start.missed));
+  if (lateness_us_ > settings_.late_us) note(EventKind::late_tick, -1, lateness_us_);
+
+  const std::uint64_t fresh = commanding_.receive(requests_);
+  for (std::size_t i = 0; i < axes_.size(); ++i) serve_axis(i, ((fresh >> i) & 1U) != 0, start.woken_ns);
+
+  const io::TickReport report{stats_->ticks, stats_->missed_ticks, start.woken_ns};
+  commanding_.send(report, reports_);
+  for (io::Port* port : listening_) port->send(report, reports_);
+  if (!records_.push(rows_)) stats_->dropped_records += rows_.size();
+
+  const std::int64_t work_ns = monotonic_ns() - start.woken_ns;
+  last_work_us_ = static_cast<double>(work_ns) * 1e-3;
+  stats_->work.record(work_ns);
+  ++stats_->ticks;
+  heartbeat_.store(stats_->ticks, std::memory_order_relaxed);
+}
+
+void PlantLoop::serve_axis(std::size_t i, bool fresh, std::int64_t now_ns) noexcept {
+  plant::FeedAxis& axis = axes_[i];
+  const CommandGuard::Decision decision = guards_[i].decide(requests_[i], fresh, now_ns);
+  if (fresh && decision.age_ns >= 0) stats_->input_age.record(decision.age_ns);
+  if (decision.event) note(*decision.event, static_cast<std::int32_t>(i), decision.event_value);
+
+  const plant::AxisCommand command{.torque_Nm = decision.torque_Nm};
+  AxisRecord& row = rows_[i];
+  row.tick = stats_->ticks;
+  row.axis = static_cast<std::int32_t>(i);
+  row.state = guards_[i].state();
+  row.encoder_counts = axis.signals().encoder_counts;
+  row.scale_position_m = axis.signals().position_m;
+  row.torque_command_Nm = decision.torque_Nm;
+  row.metered_power_W = axis.signals().metered_power_W;
+  if (settings_.record_forces) {
+    const plant::ForceSignals forces = axis.force_sensors(command);
+    row.torque_sensor_Nm = forces.torque_sensor_Nm;
+    row.force_sensor_N = forces.force_sensor_N;
+  }
+  row.lateness_us = lateness_us_;
+  row.work_us = last_work_us_;
+  row.input_age_us = static_cast<double>(decision.age_ns) * 1e-3;
+
+  const plant::AxisSignals& signals = axis.step(command, settings_.tick_s);
+  io::AxisReport& report = reports_[i];
+  report.encoder_counts = signals.encoder_counts;
+  report.velocity_m_per_s = signals.velocity_m_per_s;
+  report.torque_Nm = signals.torque_Nm;
+  report.input_age_ns = decision.age_ns;
+  report.sequence = guards_[i].sequence();
+  report.state = guards_[i].state();
+  report.index_passed = signals.index_passed;
+  watch_end_stops(i);
+}
+
+void PlantLoop::watch_end_stops(std::size_t i) noexcept {
+  const auto& model = axes_[i].model();
+  const double position_m = axes_[i].signals().position_m;
+  io::AxisReport& report = reports_[i];
+  const bool was_out = report.at_low_stop || report.at_high_stop;
+  report.at_low_stop = position_m <= model.stop_low_m;
+  report.at_high_stop = position_m >= model.stop_high_m;
+  if (!was_out && (report.at_low_stop || report.at_high_stop)) {
+    note(EventKind::end_stop, static_cast<std::int32_t>(i), report.velocity_m_per_s);
+  }
+}
+
+void PlantLoop::note(EventKind kind, std::int32_t axis, double value) noexcept {
+  if (!events_.push(Event{stats_->ticks, kind, axis, value})) ++stats_->dropped_events;
+}
+
+}  // namespace feedtwin::rt

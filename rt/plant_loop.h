@@ -1,0 +1,69 @@
+#pragma once
+// The loop: wait, receive, guard, step, send, record. tick() is the whole of what happens in real time.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "io/port.h"
+#include "plant/feed_axis.h"
+#include "rt/command_guard.h"
+#include "rt/event.h"
+#include "rt/spsc_ring.h"
+#include "rt/tick_clock.h"
+#include "rt/tick_record.h"
+#include "rt/tick_stats.h"
+
+namespace feedtwin::rt {
+
+struct LoopSettings {
+  double tick_s = 1e-3;
+  std::uint64_t ticks = 0;  ///< 0: until stopped
+  std::int64_t watchdog_ns = 100'000'000;
+  double late_us = 500.0;               ///< a tick that begins later than this is an event
+  std::size_t record_capacity = 16384;  ///< rows between the tick and the writer
+  bool record_forces = true;            ///< sample the force sensors for the log
+};
+
+class PlantLoop {
+ public:
+  /// Set-up. @param commanding the port whose requests act; @param listening further ports, which get the reports only.
+  PlantLoop(std::vector<plant::FeedAxis>& axes, io::Port& commanding, std::vector<io::Port*> listening, TickClock& clock,
+            const LoopSettings& settings);
+
+  /// Run until the ticks are done or `stop` is set. Call on the thread that is to be real-time.
+  void run(const std::atomic<bool>& stop) noexcept;
+
+  /// One tick that began at `start`. Wait-free, bounded by the ports' own bounds and the axes' sub-steps.
+  void tick(const TickStart& start) noexcept FEEDTWIN_REALTIME;
+
+  [[nodiscard]] SpscRing<AxisRecord>& records() noexcept { return records_; }
+  [[nodiscard]] SpscRing<Event>& events() noexcept { return events_; }
+  [[nodiscard]] const TickStats& stats() const noexcept { return *stats_; }
+  [[nodiscard]] const CommandGuard& guard(std::size_t axis) const noexcept { return guards_[axis]; }
+  /// Rises every tick: whoever watches the loop from outside (a watchdog, a progress line) reads it.
+  [[nodiscard]] std::uint64_t heartbeat() const noexcept { return heartbeat_.load(std::memory_order_relaxed); }
+
+ private:
+  void serve_axis(std::size_t i, bool fresh, std::int64_t now_ns) noexcept FEEDTWIN_REALTIME;
+  void note(EventKind kind, std::int32_t axis, double value) noexcept FEEDTWIN_REALTIME;
+  void watch_end_stops(std::size_t i) noexcept FEEDTWIN_REALTIME;
+
+  std::vector<plant::FeedAxis>& axes_;
+  io::Port& commanding_;
+  std::vector<io::Port*> listening_;
+  TickClock& clock_;
+  LoopSettings settings_;
+  std::vector<CommandGuard> guards_;
+  std::vector<io::AxisRequest> requests_;
+  std::vector<io::AxisReport> reports_;
+  std::vector<AxisRecord> rows_;
+  SpscRing<AxisRecord> records_;
+  SpscRing<Event> events_;
+  std::unique_ptr<TickStats> stats_;
+  double lateness_us_ = 0.0, last_work_us_ = 0.0;
+  std::atomic<std::uint64_t> heartbeat_{0};
+};
+
+}  // namespace feedtwin::rt
