@@ -25,8 +25,7 @@ struct AxisRequest {
   std::int64_t watchdog_ns = 0;  ///< the controller's own watchdog time; 0: the configuration's
   bool enable = false;
   bool quick_stop = false;
-  bool fault_reset = false;      ///< a rising edge clears a watchdog fault
-  std::int64_t watchdog_ns = 0;  ///< the age at which the watchdog takes the torque away; 0: as configured
+  bool fault_reset = false;    ///< a rising edge clears a watchdog fault
   std::int64_t reply_ns = -1;  ///< from the controller's trigger (SYNC, poll) to the reply's leaving; negative: not measured
 };
 
