@@ -25,10 +25,13 @@ PlantLoop::PlantLoop(std::vector<plant::FeedAxis>& axes, io::Port& commanding, s
   }
 }
 
-void PlantLoop::run(const std::atomic<bool>& stop) noexcept {
-  const io::TickReport before{0, 0, clock_.start()};
-  commanding_.send(before, reports_);  // what the controller sees before the first tick
-  while (!stop.load(std::memory_order_relaxed) && (settings_.ticks == 0 || stats_->ticks < settings_.ticks)) {
+void PlantLoop::run_to(std::uint64_t ticks, const std::atomic<bool>& stop) noexcept {
+  if (!started_) {
+    started_ = true;
+    const io::TickReport before{0, 0, clock_.start()};
+    commanding_.send(before, reports_);  // what the controller sees before the first tick
+  }
+  while (!stop.load(std::memory_order_relaxed) && (ticks == 0 || stats_->ticks < ticks)) {
     const TickStart start = clock_.wait();
     if (!start.proceed) {
       stats_->missed_ticks += start.missed;

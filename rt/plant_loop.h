@@ -33,7 +33,9 @@ class PlantLoop {
             const LoopSettings& settings);
 
   /// Run until the ticks are done or `stop` is set. Call on the thread that is to be real-time.
-  void run(const std::atomic<bool>& stop) noexcept;
+  void run(const std::atomic<bool>& stop) noexcept { run_to(settings_.ticks, stop); }
+  /// The same up to this many ticks since the start (0: until stopped); may be called again to go on.
+  void run_to(std::uint64_t ticks, const std::atomic<bool>& stop) noexcept;
 
   /// One tick that began at `start`. Wait-free, bounded by the ports' own bounds and the axes' sub-steps.
   void tick(const TickStart& start) noexcept FEEDTWIN_REALTIME;
@@ -63,6 +65,7 @@ class PlantLoop {
   SpscRing<Event> events_;
   std::unique_ptr<TickStats> stats_;
   double lateness_us_ = 0.0, last_work_us_ = 0.0;
+  bool started_ = false;
   std::atomic<std::uint64_t> heartbeat_{0};
 };
 

@@ -193,7 +193,7 @@ std::vector<std::string> TomlFile::names_in(std::string_view table) const {
 
 std::size_t TomlFile::tables_in(std::string_view key) const {
   const auto* node = content_->find(key);
-  if (node == nullptr) return 0;
+  if (node == nullptr || node->is_table()) return 0;
   const auto* array = node->as_array();
   if (array == nullptr || !array->is_array_of_tables()) fail(key, "expected tables written as [[" + std::string(key) + "]]");
   return array->size();

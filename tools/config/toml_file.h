@@ -39,7 +39,7 @@ class TomlFile {
   std::vector<double> numbers(std::string_view key, double lowest, double highest);
   /// The names of the entries of a table ("effects" -> {"cogging", ...}); empty where it is missing.
   [[nodiscard]] std::vector<std::string> names_in(std::string_view table) const;
-  /// How many entries an array of tables has; they are then addressed as "fault[0].at_s".
+  /// How many entries an array of tables has, 0 for a plain table; they are then addressed as "fault[0].at_s".
   [[nodiscard]] std::size_t tables_in(std::string_view key) const;
 
   /// Throws InputError for the first key that was never asked for. Call it last.

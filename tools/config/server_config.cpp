@@ -1,0 +1,166 @@
+#include "tools/config/server_config.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "plant/parameter_table.h"
+#include "tools/config/axis_file.h"
+#include "tools/config/input_error.h"
+#include "tools/config/toml_settings.h"
+
+namespace feedtwin::tools {
+namespace {
+
+void read_axes(TomlFile& file, ServerConfig& config) {
+  const auto paths = file.texts("server.axes");
+  if (!paths.empty() && file.has("motor")) file.fail("server.axes", "names axis files, but this file holds an axis itself");
+  for (const auto& path : paths) {
+    const auto beside = std::filesystem::path(file.path()).parent_path() / path;
+    config.axes.push_back(read_axis_file(beside.string()));
+    config.axis_sources.push_back(beside.string());
+  }
+  if (paths.empty() && (file.has("motor") || file.has("axis"))) {
+    config.axes.push_back(axis_from(file));
+    config.axis_sources.push_back(file.path());
+  }
+  if (config.axes.size() > io::max_axes) file.fail("server.axes", fmt::format("at most {} axes", io::max_axes));
+}
+
+void read_server(TomlFile& file, ServerConfig& config) {
+  config.loop.tick_s = file.number("server.period_s", 1e-5, 0.1, 1e-3);
+  config.loop.watchdog_ns = static_cast<std::int64_t>(file.number("server.watchdog_s", 1e-3, 60.0, 0.1) * 1e9);
+  config.loop.late_us = file.number("server.late_us", 1.0, 1e6, 500.0);
+  const auto overrun = file.word("server.overrun", {"skip", "catch-up", "stop"}, "skip");
+  config.overrun = overrun == "skip"       ? rt::Overrun::skip
+                   : overrun == "catch-up" ? rt::Overrun::catch_up
+                                           : rt::Overrun::stop;
+  config.pace = file.word("server.pace", {"free-running", "lockstep"}, "free-running") == "lockstep" ? Pace::lockstep
+                                                                                                    : Pace::free_running;
+  config.lockstep_timeout_ns =
+      static_cast<std::int64_t>(file.number("server.lockstep_timeout_s", 1e-3, 60.0, 0.1) * 1e9);
+  config.controller = file.text("server.controller", "");
+
+  auto& host = config.real_time;
+  host.real_time = file.boolean("server.real_time", true);
+  host.priority = static_cast<int>(file.integer("server.priority", 0, 98, 80));
+  host.cpu = static_cast<int>(file.integer("server.cpu", -1, 4095, -1));
+  host.lock_memory = file.boolean("server.lock_memory", true);
+  host.hold_cpu_latency = file.boolean("server.hold_cpu_latency", true);
+
+  config.log_path = file.text("log.file", "");
+  config.loop.record_forces = file.boolean("log.forces", true);
+}
+
+/// The loopback controller's presets follow the axis: its mass, lead, torque limit and stroke.
+LoopbackSettings loopback_of(TomlFile& file, const std::string& table, const plant::AxisParameters& axis) {
+  const auto at = [&table](const char* key) { return table + "." + key; };
+  LoopbackSettings settings;
+  const auto kinds = controllers::motion_kinds();
+  std::vector<std::string> names;
+  for (const auto& kind : kinds) names.emplace_back(kind.name);
+  const auto chosen = file.word(at("motion"), names, "triangle");
+  settings.motion = &*std::ranges::find(kinds, chosen, &controllers::MotionKind::name);
+
+  auto& motion = settings.motion_settings;
+  const double half_stroke = 0.5 * axis.axis.stroke_m;
+  motion.centre_m = file.number(at("centre_m"), -100.0, 100.0, axis.axis.stroke_centre_m);
+  motion.amplitude_m = file.number(at("amplitude_m"), 1e-6, 100.0, std::min(0.02, 0.8 * half_stroke));
+  motion.speed_m_per_s = file.number(at("speed_m_per_s"), 1e-6, 10.0, 0.03);
+  motion.acceleration_m_per_s2 = file.number(at("acceleration_m_per_s2"), 1e-3, 1e3, 1.0);
+  motion.jerk_m_per_s3 = file.number(at("jerk_m_per_s3"), 1e-2, 1e6, 50.0);
+  motion.dwell_s = file.number(at("dwell_s"), 0.0, 1e3, 0.2);
+
+  const double mass_kg = plant::make_axis_model(axis).mass_kg;
+  auto& gains = settings.gains;
+  gains.lead_m = axis.axis.lead_m;
+  gains.torque_limit_Nm = axis.axis.torque_limit_Nm;
+  gains.position_per_s = file.number(at("position_per_s"), 0.0, 1e4, 60.0);
+  gains.velocity_Ns_per_m = file.number(at("velocity_Ns_per_m"), 0.0, 1e9, 130.0 * mass_kg);
+  gains.velocity_integral_N_per_m = file.number(at("velocity_integral_N_per_m"), 0.0, 1e12, 4400.0 * mass_kg);
+  gains.velocity_feedforward = file.number(at("velocity_feedforward"), 0.0, 2.0, 1.0);
+  gains.acceleration_feedforward_kg = file.number(at("acceleration_feedforward_kg"), 0.0, 1e5, mass_kg);
+  gains.current_loop_time_constant_s = file.number(at("current_loop_time_constant_s"), 0.0, 1.0, 0.0);
+  return settings;
+}
+
+const io::PortKind* find_kind(std::string_view name) {
+  const auto kinds = io::port_kinds();
+  const auto found = std::ranges::find(kinds, name, &io::PortKind::name);
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+void read_ports(TomlFile& file, bool built_in, ServerConfig& config) {
+  std::vector<std::string> names;
+  for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
+  const auto context = config.context();
+  const std::size_t count = file.tables_in("port");
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string table = fmt::format("port[{}]", i);
+    const auto name = file.word(table + ".kind", names, "");
+    if (name.empty()) file.fail(table, fmt::format("kind is missing; expected one of {}", fmt::join(names, ", ")));
+    TomlSettings settings(file, table);
+    config.ports.push_back(find_kind(name)->make(settings, context));
+  }
+  // without a word about ports: the two that need no hardware, and the one that is to command
+  std::vector<std::string> presets;
+  if (built_in || count == 0) presets = {"modbus", "udp"};
+  if (!config.controller.empty() && config.controller != "loopback") presets.push_back(config.controller);
+  for (const auto& name : presets) {
+    const bool there = std::ranges::any_of(config.ports, [&](const auto& port) { return port->name() == name; });
+    const auto* kind = find_kind(name);
+    if (there || kind == nullptr) continue;
+    TomlSettings settings(file, "preset." + name);
+    config.ports.push_back(kind->make(settings, context));
+  }
+}
+
+void choose_controller(const TomlFile& file, const std::optional<std::string>& asked, ServerConfig& config) {
+  std::vector<std::string> names{"loopback"};
+  for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
+  if (asked) config.controller = *asked;
+  if (config.controller.empty()) config.controller = "modbus";
+  if (std::ranges::find(names, config.controller) != names.end()) return;
+  const auto problem = fmt::format("expected one of {}, found \"{}\"", fmt::join(names, ", "), config.controller);
+  if (asked) throw InputError("--controller: " + problem);
+  file.fail("server.controller", problem);
+}
+
+}  // namespace
+
+io::PortContext ServerConfig::context() const {
+  io::PortContext context;
+  context.axes = static_cast<int>(axes.size());
+  context.tick_s = loop.tick_s;
+  for (const auto& axis : axes) {
+    context.axis.push_back({axis.motor.rated_torque_Nm, axis.axis.lead_m, axis.axis.encoder_counts_per_rev});
+  }
+  return context;
+}
+
+ServerConfig read_server_config(const ConfigRequest& request) {
+  const bool built_in = request.path.empty();
+  TomlFile file = built_in ? TomlFile::parse("", "built-in configuration") : TomlFile::read(request.path);
+  ServerConfig config;
+  if (!built_in) config.source = request.path;
+  read_server(file, config);
+  read_axes(file, config);
+  if (config.axes.empty()) {
+    config.axes.push_back(plant::source_axis());
+    config.axis_sources.emplace_back("built in: the source's axis (Table 2)");
+  }
+  choose_controller(file, request.controller, config);
+  for (std::size_t i = 0; i < config.axes.size(); ++i) {
+    const std::size_t tables = file.tables_in("loopback");
+    const std::string table = tables > 0 ? fmt::format("loopback[{}]", std::min(i, tables - 1)) : "loopback";
+    config.loopback.push_back(loopback_of(file, table, config.axes[i]));
+  }
+  read_ports(file, built_in, config);
+  file.reject_unknown();
+  if (!request.with_ports) config.ports.clear();
+  return config;
+}
+
+}  // namespace feedtwin::tools

@@ -1,0 +1,49 @@
+#pragma once
+// The configuration of `serve` and `simulate`. An axis file by itself is one already; more keys stand in tables of their
+// own: [server], [loopback], [log], [[port]]. See systemd/feedtwin.toml for all of them.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/port.h"
+#include "io/registry.h"
+#include "plant/parameters.h"
+#include "rt/plant_loop.h"
+#include "rt/rt_setup.h"
+#include "rt/tick_clock.h"
+#include "tools/loopback/loopback_port.h"
+
+namespace feedtwin::tools {
+
+/// Who sets the pace.
+enum class Pace : std::uint8_t { free_running, lockstep };
+
+struct ServerConfig {
+  std::string source = "built in: the source's axis (Table 2)";
+  std::vector<plant::AxisParameters> axes;
+  std::vector<std::string> axis_sources;
+  rt::LoopSettings loop;
+  rt::RtSettings real_time;
+  rt::Overrun overrun = rt::Overrun::skip;
+  Pace pace = Pace::free_running;
+  std::int64_t lockstep_timeout_ns = 100'000'000;
+  std::string controller;                          ///< "loopback" or the kind of the commanding port
+  std::vector<LoopbackSettings> loopback;          ///< one for each axis
+  std::vector<std::unique_ptr<io::Port>> ports;    ///< made, not yet open
+  std::string log_path;                            ///< empty: no log
+
+  [[nodiscard]] io::PortContext context() const;
+};
+
+struct ConfigRequest {
+  std::string path;                        ///< empty: the built-in configuration
+  std::optional<std::string> controller;   ///< overrides the file's
+  bool with_ports = true;                  ///< false: off line, no port is made (their keys are still checked)
+};
+
+/// Throws InputError.
+[[nodiscard]] ServerConfig read_server_config(const ConfigRequest& request);
+
+}  // namespace feedtwin::tools
