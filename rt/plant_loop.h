@@ -24,6 +24,7 @@ struct LoopSettings {
   double late_us = 500.0;               ///< a tick that begins later than this is an event
   std::size_t record_capacity = 16384;  ///< rows between the tick and the writer
   bool record_forces = true;            ///< sample the force sensors for the log
+  bool record_work = true;              ///< log how long each tick took; false keeps a simulated log repeatable
 };
 
 class PlantLoop {

@@ -39,7 +39,7 @@ void prefault_heap(std::size_t bytes) {
 
 [[gnu::noinline]] void prefault_stack(std::size_t bytes) {
   constexpr std::size_t block_bytes = 16 * 1024;
-  volatile unsigned char block[block_bytes];
+  [[maybe_unused]] volatile unsigned char block[block_bytes];
   for (std::size_t i = 0; i < block_bytes; i += 1024) block[i] = 1;
   if (bytes > block_bytes) prefault_stack(bytes - block_bytes);
   block[0] = 2;  // after the call: no tail recursion, every frame is real

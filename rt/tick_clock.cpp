@@ -16,8 +16,10 @@ void sleep_until(std::int64_t time_ns) noexcept {
 
 }  // namespace
 
-void GridClock::start() noexcept {
-  next_ns_ = monotonic_ns() + period_ns_;
+std::int64_t GridClock::start() noexcept {
+  const std::int64_t now_ns = monotonic_ns();
+  next_ns_ = now_ns + period_ns_;
+  return now_ns;
 }
 
 TickStart GridClock::wait() noexcept {

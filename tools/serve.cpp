@@ -2,8 +2,8 @@
 
 #include "tools/serve.h"
 
-#include <csignal>
 #include <cmath>
+#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -23,7 +23,9 @@ struct Options {
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
-void request_stop(int) { stop_requested.store(true); }
+void request_stop(int) {
+  stop_requested.store(true);
+}
 
 int run(const Options& options) {
   ConfigRequest request;

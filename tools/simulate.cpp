@@ -36,7 +36,9 @@ int run(const Options& options) {
 std::function<int()> prepare_simulate(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("CONFIG", options->config, "server configuration or axis file (TOML); without it, the source's axis");
-  app.add_option("--duration", options->duration_s, "simulated time in s")->check(CLI::Range(1e-3, 1e6))->capture_default_str();
+  app.add_option("--duration", options->duration_s, "simulated time in s")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->capture_default_str();
   app.add_option("--log,--out", options->log, "where the recording goes")->type_name("FILE")->capture_default_str();
   add_json_option(app, options->json);
   return [options] { return run(*options); };

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "tools/serve.h"
 #include "tools/simulate.h"
 #include "tools/verb.h"
 
@@ -7,6 +8,7 @@ namespace feedtwin::tools {
 
 std::span<const Verb> verbs() noexcept {
   static constexpr std::array all{
+      Verb{"serve", "the real-time plant server: a controller outside closes the loop", prepare_serve},
       Verb{"simulate", "controller and plant off line, faster than real time, deterministic; writes a recording",
            prepare_simulate},
   };

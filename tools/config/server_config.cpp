@@ -34,13 +34,10 @@ void read_server(TomlFile& file, ServerConfig& config) {
   config.loop.watchdog_ns = static_cast<std::int64_t>(file.number("server.watchdog_s", 1e-3, 60.0, 0.1) * 1e9);
   config.loop.late_us = file.number("server.late_us", 1.0, 1e6, 500.0);
   const auto overrun = file.word("server.overrun", {"skip", "catch-up", "stop"}, "skip");
-  config.overrun = overrun == "skip"       ? rt::Overrun::skip
-                   : overrun == "catch-up" ? rt::Overrun::catch_up
-                                           : rt::Overrun::stop;
+  config.overrun = overrun == "skip" ? rt::Overrun::skip : overrun == "catch-up" ? rt::Overrun::catch_up : rt::Overrun::stop;
   config.pace = file.word("server.pace", {"free-running", "lockstep"}, "free-running") == "lockstep" ? Pace::lockstep
-                                                                                                    : Pace::free_running;
-  config.lockstep_timeout_ns =
-      static_cast<std::int64_t>(file.number("server.lockstep_timeout_s", 1e-3, 60.0, 0.1) * 1e9);
+                                                                                                     : Pace::free_running;
+  config.lockstep_timeout_ns = static_cast<std::int64_t>(file.number("server.lockstep_timeout_s", 1e-3, 60.0, 0.1) * 1e9);
   config.controller = file.text("server.controller", "");
 
   auto& host = config.real_time;

@@ -29,18 +29,18 @@ struct ServerConfig {
   rt::Overrun overrun = rt::Overrun::skip;
   Pace pace = Pace::free_running;
   std::int64_t lockstep_timeout_ns = 100'000'000;
-  std::string controller;                          ///< "loopback" or the kind of the commanding port
-  std::vector<LoopbackSettings> loopback;          ///< one for each axis
-  std::vector<std::unique_ptr<io::Port>> ports;    ///< made, not yet open
-  std::string log_path;                            ///< empty: no log
+  std::string controller;                        ///< "loopback" or the kind of the commanding port
+  std::vector<LoopbackSettings> loopback;        ///< one for each axis
+  std::vector<std::unique_ptr<io::Port>> ports;  ///< made, not yet open
+  std::string log_path;                          ///< empty: no log
 
   [[nodiscard]] io::PortContext context() const;
 };
 
 struct ConfigRequest {
-  std::string path;                        ///< empty: the built-in configuration
-  std::optional<std::string> controller;   ///< overrides the file's
-  bool with_ports = true;                  ///< false: off line, no port is made (their keys are still checked)
+  std::string path;                       ///< empty: the built-in configuration
+  std::optional<std::string> controller;  ///< overrides the file's
+  bool with_ports = true;                 ///< false: off line, no port is made (their keys are still checked)
 };
 
 /// Throws InputError.

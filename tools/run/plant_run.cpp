@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -37,7 +38,9 @@ void PlantRun::make_log() {
   settings.with_forces = config_.loop.record_forces;
   for (const auto& axis : axes_) settings.m_per_count.push_back(axis.encoder().resolution_m());
   if (loopback_) {
-    settings.reference_m = [port = loopback_.get()](std::size_t axis, std::uint64_t tick) { return port->reference_m(axis, tick); };
+    settings.reference_m = [port = loopback_.get()](std::size_t axis, std::uint64_t tick) {
+      return port->reference_m(axis, tick);
+    };
   }
   log_ = std::make_unique<RunLog>(settings);
 }
@@ -100,16 +103,18 @@ void PlantRun::show_progress(std::atomic<bool>& stop, const std::atomic<bool>& e
     if (now - shown < std::chrono::seconds(terminal ? 1 : 10)) continue;
     shown = now;
     const double done_s = static_cast<double>(loop_->heartbeat()) * config_.loop.tick_s;
-    fmt::print(stderr, "{}{:.0f} s{}{}", terminal ? "\r" : "", done_s, total_s > 0 ? fmt::format(" of {:.0f} s", total_s) : "",
-               terminal ? " " : "\n");
+    fmt::print(stderr, "{}{:.0f} s{}{}", terminal ? "\r" : "", done_s,
+               total_s > 0 ? fmt::format(" of {:.0f} s", total_s) : "", terminal ? " " : "\n");
   }
   if (terminal) fmt::print(stderr, "\r                        \r");
   stop.store(true);
 }
 
 void PlantRun::run_off_line() {
-  if (!loopback_) throw InputError("simulate runs the loopback controller; controller = \"" + config_.controller + "\" has no wire here");
+  if (!loopback_)
+    throw InputError("simulate runs the loopback controller; controller = \"" + config_.controller + "\" has no wire here");
   clock_ = std::make_unique<rt::OfflineClock>(static_cast<std::int64_t>(std::llround(config_.loop.tick_s * 1e9)));
+  config_.loop.record_work = false;
   const std::uint64_t ticks = config_.loop.ticks;
   const std::atomic<bool> stop{false};
   // in pieces that the log's ring takes whole, so that one thread can run and write in turn
@@ -143,7 +148,8 @@ RunSummary PlantRun::summary(const std::string& verb) {
     summary.energy.push_back(axes_[i].energy());
     facts.guards.push_back(loop_->guard(i).counters());
     facts.energy_balance_error = std::max(facts.energy_balance_error, summary.energy.back().balance_error());
-    facts.finite = facts.finite && std::isfinite(axes_[i].state().position_m) && std::isfinite(axes_[i].state().velocity_m_per_s);
+    facts.finite =
+        facts.finite && std::isfinite(axes_[i].state().position_m) && std::isfinite(axes_[i].state().velocity_m_per_s);
   }
   for (const auto& port : config_.ports) {
     for (auto& counter : port->counters()) {

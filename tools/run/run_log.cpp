@@ -16,7 +16,7 @@ namespace feedtwin::tools {
 namespace {
 
 constexpr std::size_t ticks_before_late = 100, ticks_after_late = 20;
-constexpr std::uint64_t most_late_dumps = 50;      // then the file would only grow
+constexpr std::uint64_t most_late_dumps = 50;  // then the file would only grow
 constexpr std::uint64_t most_events_on_terminal = 20;
 
 std::string with_suffix(const std::string& path, const std::string& suffix) {
@@ -27,10 +27,14 @@ std::string with_suffix(const std::string& path, const std::string& suffix) {
 
 std::string_view state_name(io::DriveState state) noexcept {
   switch (state) {
-    case io::DriveState::disabled: return "disabled";
-    case io::DriveState::enabled: return "enabled";
-    case io::DriveState::quick_stop: return "quick-stop";
-    case io::DriveState::fault: return "fault";
+    case io::DriveState::disabled:
+      return "disabled";
+    case io::DriveState::enabled:
+      return "enabled";
+    case io::DriveState::quick_stop:
+      return "quick-stop";
+    case io::DriveState::fault:
+      return "fault";
   }
   return "";
 }
@@ -80,7 +84,9 @@ RunLog::RunLog(const RunLogSettings& settings) : settings_(settings), batch_(409
   events_ = make_event_log(settings.path);
 }
 
-RunLog::~RunLog() { finish(); }
+RunLog::~RunLog() {
+  finish();
+}
 
 std::uint64_t RunLog::unwritten_rows() const noexcept {
   std::uint64_t rows = 0;
@@ -157,7 +163,8 @@ void RunLog::keep_for_late_ticks(const rt::AxisRecord& row) {
   const bool late = row.lateness_us > settings_.late_us;
   if (late && row.tick >= late_dump_until_ && late_dumps_ < most_late_dumps) {
     if (!late_file_) {
-      late_file_ = std::make_unique<CsvFile>(with_suffix(settings_.path, ".late.csv"), "tick,lateness_us,work_us,input_age_us");
+      late_file_ =
+          std::make_unique<CsvFile>(with_suffix(settings_.path, ".late.csv"), "tick,lateness_us,work_us,input_age_us");
     }
     ++late_dumps_;
     for (const auto& before : recent_) write(before);

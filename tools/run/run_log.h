@@ -20,11 +20,11 @@ class logger;
 namespace feedtwin::tools {
 
 struct RunLogSettings {
-  std::string path;                    ///< of the recording; empty: events to the terminal only
+  std::string path;  ///< of the recording; empty: events to the terminal only
   double tick_s = 1e-3;
   double late_us = 500.0;
   bool with_forces = true;
-  std::vector<double> m_per_count;     ///< one for each axis
+  std::vector<double> m_per_count;                                          ///< one for each axis
   std::function<double(std::size_t axis, std::uint64_t tick)> reference_m;  ///< may be empty
 };
 

@@ -15,7 +15,8 @@ struct Percentile {
   const char* name;
   double share;
 };
-constexpr Percentile percentiles[] = {{"p50", 0.5}, {"p99", 0.99}, {"p99_9", 0.999}, {"p99_99", 0.9999}, {"p99_999", 0.99999}};
+constexpr Percentile percentiles[] = {
+    {"p50", 0.5}, {"p99", 0.99}, {"p99_9", 0.999}, {"p99_99", 0.9999}, {"p99_999", 0.99999}};
 
 json to_json(const rt::LatencyHistogram& histogram) {
   json out;
@@ -109,7 +110,8 @@ nlohmann::json to_json(const RunSummary& summary) {
   }
   out["real_time"] = json::array();
   for (const auto& s : summary.settings) {
-    out["real_time"].push_back({{"what", s.what}, {"asked", s.asked}, {"got", s.got}, {"why", s.why}, {"granted", s.granted}});
+    out["real_time"].push_back(
+        {{"what", s.what}, {"asked", s.asked}, {"got", s.got}, {"why", s.why}, {"granted", s.granted}});
   }
   out["files"] = summary.files;
   return out;
