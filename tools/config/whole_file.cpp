@@ -2,11 +2,11 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "tools/config/input_error.h"
 
@@ -29,7 +29,13 @@ void write_whole_file(const std::string& path, std::string_view text) {
 std::string read_whole_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path)) throw InputError(path, 0, "", "cannot be opened for reading");
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::error_code error;
+  if (const auto size = std::filesystem::file_size(path, error); !error) text.reserve(size);  // pipes have none
+  std::array<char, 1 << 16> part;
+  while (file.read(part.data(), part.size()) || file.gcount() > 0)
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+  return text;
 }
 
 }  // namespace feedtwin::tools

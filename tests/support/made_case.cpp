@@ -1,0 +1,78 @@
+#include "tests/support/made_case.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "plant/feed_axis.h"
+#include "tools/config/input_error.h"
+
+namespace feedtwin::tests {
+
+tools::Recording make_recording(const plant::AxisParameters& parameters, const MadeRun& run,
+                                const controllers::CascadeGains& gains) {
+  namespace channel = tools::channel;
+  const auto kinds = controllers::motion_kinds();
+  const auto kind = std::ranges::find(kinds, run.motion, &controllers::MotionKind::name);
+  const auto motion = kind->make(run.settings);
+  plant::FeedAxis axis(parameters, plant::tenth_of_a_count);
+  const double start_m = motion->at(0.0).position_m;
+  axis.place(start_m);
+  controllers::Cascade cascade(gains);
+  cascade.reset(start_m);
+  std::mt19937 random(run.seed);
+  std::normal_distribution<double> unit;
+  tools::Recording recording;
+  recording.file = run.motion + ".csv";
+  recording.is_text = true;
+  recording.sample_s = 1e-3;
+  const auto push = [&recording](std::string_view name, double value) {
+    recording.channels[std::string(name)].push_back(value);
+  };
+  const auto rows = static_cast<int>(run.duration_s * 1e3);
+  for (int i = 0; i < rows; ++i) {
+    const double time_s = i * 1e-3;
+    const auto& signals = axis.signals();
+    const double position_m = run.quantised ? axis.encoder().position_m(signals.encoder_counts) : signals.position_m;
+    const auto reference = motion->at(time_s);
+    const double torque_Nm = cascade.torque_Nm(reference, position_m, 1e-3);
+    push(channel::time_s, time_s);
+    push(channel::torque_cmd_Nm, torque_Nm);
+    push(channel::position_m, position_m);
+    push(channel::reference_m, reference.position_m);
+    if (run.sensors) push(channel::power_W, signals.metered_power_W);
+    axis.step({.torque_Nm = torque_Nm}, 1e-3);
+    if (run.sensors) {
+      push(channel::scale_position_m, run.quantised ? std::round(position_m * 1e8) * 1e-8 : position_m);
+      const auto sensors = axis.force_sensors();
+      push(channel::torque_sensor_Nm, sensors.torque_sensor_Nm + run.torque_noise_Nm * unit(random));
+      push(channel::force_sensor_N, sensors.force_sensor_N + run.force_noise_N * unit(random));
+    }
+  }
+  return recording;
+}
+
+ScratchFolder::ScratchFolder(std::string_view name)
+    : path_(std::filesystem::path(testing::TempDir()) /
+            ("feedtwin-" + std::string(name) + "-" + std::to_string(::getpid()))) {
+  std::filesystem::create_directories(path_);
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string complaint_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const tools::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace feedtwin::tests
