@@ -1,11 +1,13 @@
 #include "tools/recording/mat.h"
 
 #include <fmt/format.h>
+#include <hdf5.h>
 #include <matio.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -74,14 +76,38 @@ void check_finite(const Table& table, std::size_t column) {
                                table.place(column, static_cast<std::size_t>(bad - values.begin())), *bad));
 }
 
+constexpr std::size_t header_bytes = 128;
+
+std::uint32_t word_at(const std::string& bytes, std::size_t at, bool swapped) {
+  std::uint32_t word{};
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return swapped ? __builtin_bswap32(word) : word;
+}
+
+/// libmatio gives zeros for what a v5 file has lost at its end: its elements (tag of type and length, then data) must fill
+/// the file exactly. v7.3 is HDF5, which knows its own end.
+void check_whole(const std::string& path) {
+  const std::string bytes = read_whole_file(path);
+  const bool v5 = bytes.starts_with("MATLAB 5.0");
+  if (bytes.size() <= header_bytes || (!v5 && !bytes.starts_with("MATLAB 7.3"))) {
+    throw InputError(path, 0, "", "is not a MATLAB file (v5 or v7.3)");
+  }
+  if (!v5) return;
+  const bool swapped = bytes.compare(126, 2, "IM") != 0;
+  std::size_t at = header_bytes;
+  while (at + 8 <= bytes.size()) at += 8 + word_at(bytes, at + 4, swapped);
+  if (at != bytes.size()) throw InputError(path, 0, "", "is damaged (is the file cut short?)");
+}
+
 }  // namespace
 
 Table read_mat(const std::string& path) {
-  // libmatio prints its complaints; ours is the one line that counts
+  // libmatio and HDF5 print their complaints; ours is the one line that counts
   Mat_LogInitFunc("feedtwin", [](int, char*) {});
-  static_cast<void>(read_whole_file(path));  // the usual message where there is no such file
+  H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);
+  check_whole(path);
   const std::unique_ptr<mat_t, int (*)(mat_t*)> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close);
-  if (file == nullptr) throw InputError(path, 0, "", "is not a MATLAB file (v5 or v7.3), or is cut short");
+  if (file == nullptr) throw InputError(path, 0, "", "is damaged (is the file cut short?)");
   Table table;
   table.file = path;
   std::size_t longest = 0;

@@ -76,6 +76,24 @@ TEST_P(MatFile, CutShortIsRefusedOrWholeVectorsRemain) {
   EXPECT_GT(refused, 20);
 }
 
+TEST_P(MatFile, SurvivesCorruption) {
+  write_mat(folder / "run.mat", GetParam(), t, x);
+  const std::string whole = read_whole_file(folder / "run.mat");
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string damaged = whole;
+    for (std::size_t edits = 1 + random() % 3; edits > 0; --edits)
+      damaged[random() % damaged.size()] = static_cast<char>(random());
+    write_whole_file(folder / "bad.mat", damaged);
+    const std::string said = tests::complaint_of([&] {
+      for (const auto& column : read_mat(folder / "bad.mat").columns) {
+        for (const double value : column.values) ASSERT_TRUE(std::isfinite(value)) << "trial " << trial;
+      }
+    });
+    ASSERT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Versions, MatFile, testing::Values(MAT_FT_MAT5, MAT_FT_MAT73));
 
 TEST(Mat, RefusesOtherFiles) {
