@@ -9,8 +9,10 @@
 #include "tools/config/input_error.h"
 #include "tools/verb.h"
 
-int main(int argc, char** argv) {
-  using namespace feedtwin::tools;
+namespace feedtwin::tools {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app{"feedtwin: a real-time plant for machine-tool feed drives, and what is missing from its model"};
   app.require_subcommand(1);
   std::function<int()> chosen;
@@ -30,8 +32,17 @@ int main(int argc, char** argv) {
   } catch (const InputError& error) {
     std::fprintf(stderr, "feedtwin: %s\n", error.what());
     return wrong_input;
+  }
+}
+
+}  // namespace
+}  // namespace feedtwin::tools
+
+int main(int argc, char** argv) {
+  try {
+    return feedtwin::tools::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "feedtwin: internal error: %s\n", error.what());
-    return not_so;
+    return feedtwin::tools::not_so;
   }
 }
