@@ -9,7 +9,8 @@ FeedAxis::FeedAxis(const AxisParameters& parameters, Resolution resolution)
     : parameters_(parameters),
       model_(make_axis_model(parameters)),
       resolution_(resolution),
-      encoder_(parameters.axis.lead_m, parameters.axis.encoder_counts_per_rev) {
+      encoder_(parameters.axis.lead_m, parameters.axis.encoder_counts_per_rev),
+      power_meter_(parameters.power_meter_window_s) {
   place(parameters.axis.stroke_centre_m);
 }
 
@@ -18,6 +19,7 @@ void FeedAxis::place(double position_m, double velocity_m_per_s) noexcept {
   state_.position_m = position_m;
   state_.velocity_m_per_s = velocity_m_per_s;
   signals_.position_m = position_m;
+  signals_.scale_position_m = position_m;
   signals_.velocity_m_per_s = velocity_m_per_s;
   signals_.encoder_counts = encoder_.counts(position_m);
   initial_speed_squared_m2_per_s2_ = velocity_m_per_s * velocity_m_per_s;
@@ -59,6 +61,7 @@ const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noe
   signals_.index_passed = encoder_.index_between(signals_.encoder_counts, counts);
   signals_.encoder_counts = counts;
   signals_.position_m = state_.position_m;
+  signals_.scale_position_m = state_.position_m;
   signals_.velocity_m_per_s = state_.velocity_m_per_s;
   signals_.torque_Nm = drive.torque_Nm;
   signals_.power_W = (electrical_loss_J(taken, tick_s) + work_J) / tick_s;

@@ -2,6 +2,10 @@
 // Parameters of one ball-screw feed axis: the source paper's Table 2, by component and by direction
 // of motion. SI units throughout; the unit is in each name.
 
+#include <vector>
+
+#include "plant/effects/setting.h"
+
 namespace feedtwin::plant {
 
 /// A value that differs with the direction of motion (Table 2's two columns).
@@ -50,6 +54,8 @@ struct AxisParameters {
   LugreParameters ball_screw;
   double guide_mass_kg = 0.0;  ///< M_L, table with the guide's blocks
   LugreParameters guide;
+  double power_meter_window_s = 0.1;   ///< the source's meter: 10 readings a second
+  std::vector<EffectSetting> effects;  ///< physics beyond Eq. 1 that is switched on (plant/effects/registry.h)
 };
 
 }  // namespace feedtwin::plant

@@ -15,7 +15,8 @@ struct AxisCommand {
 struct AxisSignals {
   std::int64_t encoder_counts = 0;  ///< motor encoder, four counts a line
   bool index_passed = false;        ///< the encoder's index was crossed within the tick
-  double position_m = 0.0;          ///< table travel, unquantised
+  double position_m = 0.0;          ///< motor shaft's angle as table travel, unquantised
+  double scale_position_m = 0.0;    ///< table as a linear scale on it shows, unquantised; the same without effects
   double velocity_m_per_s = 0.0;
   double torque_Nm = 0.0;        ///< motor torque after the drive's limit
   double power_W = 0.0;          ///< drive input, mean over the tick

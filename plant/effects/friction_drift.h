@@ -1,0 +1,55 @@
+#pragma once
+// Friction that changes with time alone: running-in, or lubrication that redistributes within a session.
+//
+//   F_C, F_S and mu of the ball screw times 1 + c (1 - exp(-t / T))
+//
+// c = relative_change, T = time_constant_s, t since the run began. T at its lowest is a step between sessions.
+
+#include <array>
+#include <cmath>
+
+#include "plant/effects/entry.h"
+
+namespace feedtwin::plant::effects {
+
+class FrictionDrift final : public Effect {
+ public:
+  FrictionDrift(const EffectContext& /*context*/, const EffectSetting& setting)
+      : change_(setting.values[0]), time_constant_s_(setting.values[1]) {}
+
+  void tick(const TickStart& start) noexcept override {
+    factor_ = 1.0 + change_ * (1.0 - std::exp(-start.time_s / time_constant_s_));
+  }
+
+  void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
+    scale.screw_sliding *= factor_;
+    scale.screw_viscous *= factor_;
+  }
+
+ private:
+  double change_, time_constant_s_;
+  double factor_ = 1.0;
+};
+
+// name, unit, lowest, highest, preset, neutral, meaning
+// clang-format off: a line a parameter
+inline constexpr std::array friction_drift_parameters{
+    EffectParameter{"relative_change", "1", -0.9, 5.0, {}, 0.0, "change of the friction after a long time, over the nominal; positive: more friction"},
+    EffectParameter{"time_constant_s", "s", 0.001, 1000000.0, {}, {}, "time after which 63 % of the change is reached"},
+};
+// clang-format on
+
+inline constexpr EffectEntry friction_drift{
+    .id = "friction_drift",
+    .component = EffectComponent::ball_screw,
+    .work = EffectWork::none,
+    .meaning = "friction of the ball screw changes with time, whatever the motion",
+    .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm",
+    .confused_with = "thermal_friction torque_gain_error",
+    .exciting_move = "the same move at the start, the middle and the end of a long session with rests",
+    .parameters = friction_drift_parameters,
+    .make = make_effect<FrictionDrift>,
+    .hooks = hooks_of<FrictionDrift>(),
+};
+
+}  // namespace feedtwin::plant::effects

@@ -1,0 +1,47 @@
+#pragma once
+// Weight on an inclined or vertical axis, less its counterbalance.
+//
+//   F = G,   G = force_N
+
+#include <array>
+
+#include "plant/effects/entry.h"
+
+namespace feedtwin::plant::effects {
+
+class Gravity final : public Effect {
+ public:
+  Gravity(const EffectContext& context, const EffectSetting& setting) : force_N_(setting.values[0]) {
+    reset(context.axis.axis.stroke_centre_m);
+  }
+  void reset(double position_m) noexcept override { start_m_ = position_m_ = position_m; }
+  [[nodiscard]] EffectLoad load(const EffectMotion& /*motion*/) const noexcept override { return {force_N_, 0.0}; }
+  void advance(const EffectMotion& m) noexcept override { position_m_ = m.position_m + m.velocity_m_per_s * m.h_s; }
+  [[nodiscard]] double stored_J() const noexcept override { return force_N_ * (position_m_ - start_m_); }
+
+ private:
+  double force_N_;
+  double start_m_ = 0.0, position_m_ = 0.0;
+};
+
+// name, unit, lowest, highest, preset, neutral, meaning
+// clang-format off: a line a parameter
+inline constexpr std::array gravity_parameters{
+    EffectParameter{"force_N", "N", -100000.0, 100000.0, {}, 0.0, "positive: acts against positive motion"},
+};
+// clang-format on
+
+inline constexpr EffectEntry gravity{
+    .id = "gravity",
+    .component = EffectComponent::load,
+    .work = EffectWork::conserves,
+    .meaning = "a constant force of weight or counterbalance acts on the table",
+    .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm force_sensor_N",
+    .confused_with = "torque_offset direction_dependent_friction cable_spring",
+    .exciting_move = "both directions at the same speeds, with dwells in between",
+    .parameters = gravity_parameters,
+    .make = make_effect<Gravity>,
+    .hooks = hooks_of<Gravity>(),
+};
+
+}  // namespace feedtwin::plant::effects
