@@ -40,6 +40,8 @@ void set_lane(AxisModel<Real>& to, std::size_t lane, const AxisModel<double>& fr
   to.damping_neg_Ns_per_m[lane] = from.damping_neg_Ns_per_m;
   to.coulomb_pos_N[lane] = from.coulomb_pos_N;
   to.coulomb_neg_N[lane] = from.coulomb_neg_N;
+  to.damping_rate_pos_Hz[lane] = from.damping_rate_pos_Hz;
+  to.damping_rate_neg_Hz[lane] = from.damping_rate_neg_Hz;
   detail::set_contact(to.contacts.screw, lane, from.contacts.both, 0);
   detail::set_contact(to.contacts.guide, lane, from.contacts.both, 1);
   to.stop_low_m[lane] = from.stop_low_m;

@@ -39,6 +39,12 @@ AxisModel<double> make_axis_model(const AxisParameters& parameters) {
                          side(screw, guide, &Directional::neg),
                          {stiffness, 1.0 / stiffness, Pair{screw.damping_Ns_per_m, guide.damping_Ns_per_m}}};
 
+  const auto damping_rate_Hz = [&](double motor_Ns_per_m, double Directional::* direction) {
+    return (motor_Ns_per_m + screw.viscous_Ns_per_m.*direction + guide.viscous_Ns_per_m.*direction) / model.mass_kg;
+  };
+  model.damping_rate_pos_Hz = damping_rate_Hz(model.damping_pos_Ns_per_m, &Directional::pos);
+  model.damping_rate_neg_Hz = damping_rate_Hz(model.damping_neg_Ns_per_m, &Directional::neg);
+
   const double half_stroke = 0.5 * parameters.axis.stroke_m;
   model.stop_low_m = parameters.axis.stroke_centre_m - half_stroke;
   model.stop_high_m = parameters.axis.stroke_centre_m + half_stroke;

@@ -16,6 +16,7 @@ struct AxisModel {
   Real motor_mass_kg{}, screw_mass_kg{}, table_mass_kg{};
   Real damping_pos_Ns_per_m{}, damping_neg_Ns_per_m{};  ///< B_M (2 pi / p_b)^2
   Real coulomb_pos_N{}, coulomb_neg_N{};                ///< F_M
+  Real damping_rate_pos_Hz{}, damping_rate_neg_Hz{};    ///< all viscous friction over all mass
   Contacts<Real> contacts;
   Real stop_low_m{}, stop_high_m{}, stop_stiffness_N_per_m{}, stop_damping_Ns_per_m{};
 };

@@ -29,6 +29,7 @@ struct ContactsStep {
   Real screw_force_slope_Ns_per_m{}, guide_force_slope_Ns_per_m{};
   Real screw_bristle_m{}, guide_bristle_m{};
   Real screw_bristle_slope_s{}, guide_bristle_slope_s{};
+  Real screw_viscous_Ns_per_m{}, guide_viscous_Ns_per_m{};  ///< unscaled, in the direction of motion
 };
 
 /// How the axis moves in a sub-step.
@@ -66,8 +67,16 @@ struct Contacts {
                                     m.sign, m.speed_m_per_s, screw_bristle_m, m.h_s, m.per_h_Hz);
     const auto g = lugre_step<Real>(guide.bristle, side_in_force(guide, positive, scale.guide_sliding, scale.guide_viscous),
                                     m.sign, m.speed_m_per_s, guide_bristle_m, m.h_s, m.per_h_Hz);
-    return {s.force_N,   g.force_N,   s.force_slope_Ns_per_m, g.force_slope_Ns_per_m,
-            s.bristle_m, g.bristle_m, s.bristle_slope_s,      g.bristle_slope_s};
+    return {s.force_N,
+            g.force_N,
+            s.force_slope_Ns_per_m,
+            g.force_slope_Ns_per_m,
+            s.bristle_m,
+            g.bristle_m,
+            s.bristle_slope_s,
+            g.bristle_slope_s,
+            positive ? screw.pos.viscous_Ns_per_m : screw.neg.viscous_Ns_per_m,
+            positive ? guide.pos.viscous_Ns_per_m : guide.neg.viscous_Ns_per_m};
   }
 };
 
@@ -85,6 +94,7 @@ struct Contacts<double> {
                                           const FrictionScale<double>& scale) const noexcept {
     const bool positive = m.sign > 0.0;
     LugreSide<Pair> side = positive ? both.pos : both.neg;
+    const Pair viscous = side.viscous_Ns_per_m;
     const Pair sliding = {scale.screw_sliding, scale.guide_sliding};
     side.coulomb_N *= sliding;
     side.stribeck_rise_N *= sliding;
@@ -92,7 +102,8 @@ struct Contacts<double> {
     const auto p = lugre_step<Pair>(both.bristle, side, Pair{} + m.sign, Pair{} + m.speed_m_per_s,
                                     Pair{screw_bristle_m, guide_bristle_m}, Pair{} + m.h_s, Pair{} + m.per_h_Hz);
     return {p.force_N[0],   p.force_N[1],   p.force_slope_Ns_per_m[0], p.force_slope_Ns_per_m[1],
-            p.bristle_m[0], p.bristle_m[1], p.bristle_slope_s[0],      p.bristle_slope_s[1]};
+            p.bristle_m[0], p.bristle_m[1], p.bristle_slope_s[0],      p.bristle_slope_s[1],
+            viscous[0],     viscous[1]};
   }
 };
 

@@ -1,9 +1,12 @@
 #pragma once
 // One tick of Eq. 1: a linearly implicit mid-point rule with the friction of each sub-step in closed form.
 //
-// Over a sub-step h the mean velocity w obeys   2 M (w - v) / h = drive - s F_M - B w - F_B(w) - F_L(w) - ...
-// which is solved by one Newton step from the predicted mean velocity v + a h / 2; then v' = 2 w - v, x' = x + h w.
-// Because M (v'^2 - v^2) / 2 = M w (v' - v), work in = kinetic + stored + lost holds in every sub-step.
+// Over a sub-step h the mean velocity w = v + theta (v' - v) obeys   M (v' - v) / h = drive - s F_M - B w - F_B(w) - F_L(w)
+// - ... which is solved by one Newton step from the predicted mean velocity v + a h / 2; then x' = x + h w. theta = 1/2
+// would be the mid-point rule. With y = h D / M, D all viscous friction, theta = (3 + y) / (6 + y) = 1/2 + y/12 - ... is
+// that of the exact decay e^-y to y^2, so that a sliding axis needs one sub-step a tick. The mean of v^2 is then w^2 + (v' -
+// v)^2 / (12 + 2 y), and with it M (v'^2 - v^2) / 2 = M w (v' - v) - h D (v' - v)^2 / (12 + 2 y): work in = kinetic + stored
+// + lost in every sub-step.
 //
 // Coulomb friction is set-valued and stays so: a sub-step never runs across a reversal. Where the velocity would change
 // its sign, the sub-step ends at the zero crossing; there the axis sticks if the motor's Coulomb friction can hold the rest
@@ -11,19 +14,24 @@
 //
 // Bounded: at most substeps + extra_substeps evaluations a tick, no allocation, no branch on data other than events.
 
+#include <algorithm>
+
 #include "plant/axis_model.h"
 
 namespace feedtwin::plant {
 
-/// Sub-steps a tick. Pre-sliding oscillates at up to 120 Hz and wants more of them than sliding does.
+/// Sub-steps a tick, by how near a reversal is: there the bristles turn over within a few micrometres and swing at up to 120
+/// Hz.
 struct Resolution {
-  int sliding = 2;
-  int presliding = 5;
-  double presliding_below_m_per_s = 3e-3;
+  int sliding = 1;
+  int settling = 2;
+  int reversing = 6;
+  double settling_within_ticks = 12.0;
+  double reversing_within_ticks = 2.0;
 };
-inline constexpr Resolution one_count{};                    ///< position within one count of 76 nm
-inline constexpr Resolution tenth_of_a_count{7, 14, 3e-3};  ///< within a tenth
-inline constexpr int extra_substeps = 12;                   ///< for reversals within a tick
+inline constexpr Resolution one_count{};                            ///< position within one count of 76 nm
+inline constexpr Resolution tenth_of_a_count{4, 6, 18, 12.0, 3.0};  ///< within a tenth
+inline constexpr int extra_substeps = 12;                           ///< for reversals within a tick
 
 /// What acts in a sub-step beside Eq. 1's own terms.
 template <class Real>
@@ -67,6 +75,7 @@ struct Trial {
   ContactsStep<Real> contacts;
   Real stop_force_N;
   Real h_s, per_h_Hz;
+  Real per_theta;  ///< 1 / theta
 };
 
 /// Net force at rest without the motor's Coulomb friction: what that friction would have to hold.
@@ -95,7 +104,9 @@ template <class Real, class Effects>
 
   const Real damping = positive ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m;
   const Real coulomb = positive ? model.coulomb_pos_N : -model.coulomb_neg_N;
-  const Real inertia = 2.0 * model.mass_kg * per_h_Hz;
+  const Real y = h_s * (positive ? model.damping_rate_pos_Hz : model.damping_rate_neg_Hz);
+  const Real per_theta = (6.0 + y) / (3.0 + y);
+  const Real inertia = model.mass_kg * per_h_Hz * per_theta;
   const Real resisting =
       coulomb + damping * w + contacts.screw_force_N + contacts.guide_force_N + extra.force_N + stop.force_N;
   const Real slope = inertia + damping + contacts.screw_force_slope_Ns_per_m + contacts.guide_force_slope_Ns_per_m +
@@ -107,7 +118,9 @@ template <class Real, class Effects>
   contacts.screw_bristle_m += contacts.screw_bristle_slope_s * correction;
   contacts.guide_bristle_m += contacts.guide_bristle_slope_s * correction;
   const Real mean = w + correction;
-  return {mean, 2.0 * mean - v, contacts, stop.force_N + stop.force_slope_Ns_per_m * correction, h_s, per_h_Hz};
+  return {
+      mean,     v + per_theta * (mean - v), contacts, stop.force_N + stop.force_slope_Ns_per_m * correction, h_s, per_h_Hz,
+      per_theta};
 }
 
 /// The sub-step again, only as far as the zero crossing. Rare, so out of line: the common path stays in registers.
@@ -124,21 +137,26 @@ template <class Real, class Effects>
   return trial;
 }
 
+/// @param w mean velocity, 0 in lanes that stand; @param ahead w less the velocity at the start, likewise
 template <class Real>
 [[gnu::always_inline]] inline void account(const AxisModel<Real>& model, const Trial<Real>& trial, MaskOf<Real> positive,
-                                           Real w, AxisLosses<Real>& losses) noexcept {
+                                           Real w, Real ahead, AxisLosses<Real>& losses) noexcept {
   const Real path_m = w * trial.h_s;
   const Real forth_m = positive ? path_m : Real{};
   const Real back_m = path_m - forth_m;
+  const Real spread = trial.h_s * ahead * ahead * (trial.per_theta * (trial.per_theta - 1.0) * (1.0 / 6.0));
+  const Real speed_travel = w * path_m + spread;  // integral of v^2
+  const Real speed_forth = positive ? speed_travel : Real{};
+  const Real speed_back = speed_travel - speed_forth;
   losses.motor_J += model.coulomb_pos_N * forth_m - model.coulomb_neg_N * back_m +
-                    w * (model.damping_pos_Ns_per_m * forth_m + model.damping_neg_Ns_per_m * back_m);
-  losses.screw_J += trial.contacts.screw_force_N * path_m;
-  losses.guide_J += trial.contacts.guide_force_N * path_m;
+                    (model.damping_pos_Ns_per_m * speed_forth + model.damping_neg_Ns_per_m * speed_back);
+  losses.screw_J += trial.contacts.screw_force_N * path_m + trial.contacts.screw_viscous_Ns_per_m * spread;
+  losses.guide_J += trial.contacts.guide_force_N * path_m + trial.contacts.guide_viscous_Ns_per_m * spread;
   losses.stop_J += trial.stop_force_N * path_m;
   losses.travel_pos_m += forth_m;
   losses.travel_neg_m -= back_m;
-  losses.speed_travel_pos_m2_per_s += w * forth_m;
-  losses.speed_travel_neg_m2_per_s += w * back_m;
+  losses.speed_travel_pos_m2_per_s += speed_forth;
+  losses.speed_travel_neg_m2_per_s += speed_back;
 }
 
 /// One sub-step of at most h > 0; returns the time that it took. Lanes that have `ended` their tick stand still.
@@ -175,8 +193,9 @@ template <class Real, class Effects>
     trial = solve_to_reversal<Real>(model, state, effects, sign, trial, crossing & !rebound);
   }
   const Real w = idle ? Real{} : trial.mean_velocity_m_per_s;
-  account<Real>(model, trial, sign > 0.0, w, losses);
-  const Real acceleration = 2.0 * (w - state.velocity_m_per_s) * trial.per_h_Hz;
+  const Real ahead = idle ? Real{} : w - state.velocity_m_per_s;
+  account<Real>(model, trial, sign > 0.0, w, ahead, losses);
+  const Real acceleration = trial.per_theta * ahead * trial.per_h_Hz;
   state.position_m += w * trial.h_s;
   state.acceleration_m_per_s2 = idle ? state.acceleration_m_per_s2 : acceleration;
   state.velocity_m_per_s = idle ? state.velocity_m_per_s : trial.velocity_m_per_s;
@@ -199,10 +218,14 @@ inline AxisLosses<Real> integrate_tick(const AxisModel<Real>& model, AxisState<R
   state.acceleration_m_per_s2 += (drive_N - state.drive_N) / model.mass_kg;
   state.drive_N = drive_N;
   const Real speed = absolute<Real>(state.velocity_m_per_s);
-  const Real nominal_s = speed > resolution.presliding_below_m_per_s ? Real{} + tick_s / resolution.sliding
-                                                                     : Real{} + tick_s / resolution.presliding;
-  const int most =
-      (resolution.presliding > resolution.sliding ? resolution.presliding : resolution.sliding) + extra_substeps;
+  // how near a reversal: the time, in ticks, that the velocity would take to it
+  const Real per_tick = absolute<Real>(state.acceleration_m_per_s2) * tick_s;
+  const Real reversing_s = Real{} + tick_s / resolution.reversing, settling_s = Real{} + tick_s / resolution.settling,
+             sliding_s = Real{} + tick_s / resolution.sliding;
+  const Real nominal_s = speed > resolution.settling_within_ticks * per_tick    ? sliding_s
+                         : speed > resolution.reversing_within_ticks * per_tick ? settling_s
+                                                                                : reversing_s;
+  const int most = std::max({resolution.sliding, resolution.settling, resolution.reversing}) + extra_substeps;
   const double rounding_s = 1e-9 * tick_s;
   Real left_s = Real{} + tick_s;
   for (int i = 0; i < most && any(left_s > 0.0); ++i) {
