@@ -11,6 +11,7 @@ Exchange::Exchange(const PortContext& context) : axes_(std::clamp(context.axes, 
 }
 
 std::uint64_t Exchange::receive(std::span<AxisRequest> newest) noexcept {
+  asked_.store(true, std::memory_order_relaxed);
   if (!requests_.take()) return 0;
   const RequestImage& image = requests_.newest();
   std::uint64_t fresh = 0;
@@ -29,6 +30,7 @@ void Exchange::send(const TickReport& tick, std::span<const AxisReport> axes) no
     encode(tick, axes[axis], rated_torque_Nm_[axis],
            std::span<std::uint16_t, input_stride>(image.data() + axis * input_stride, input_stride));
   inputs_.post();
+  sends_.store(sends_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }
 
 }  // namespace feedtwin::io::modbus

@@ -2,6 +2,7 @@
 // Between the tick and the Modbus server's thread: requests one way, input registers the other, both wait-free.
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 
@@ -32,6 +33,10 @@ class Exchange {
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME;
 
   // the server's side
+  /// The loop gives out its results here but takes its commands from another port.
+  [[nodiscard]] bool only_watched() const noexcept {
+    return sends_.load(std::memory_order_relaxed) > 1 && !asked_.load(std::memory_order_relaxed);
+  }
   Mailbox<RequestImage>& requests() noexcept { return requests_; }
   Mailbox<InputImage>& inputs() noexcept { return inputs_; }
 
@@ -39,6 +44,8 @@ class Exchange {
   int axes_;
   std::array<double, max_axes> rated_torque_Nm_{};
   std::array<std::uint64_t, max_axes> number_seen_{};
+  std::atomic<bool> asked_{false};
+  std::atomic<std::uint64_t> sends_{0};  ///< the first one comes before the first tick
   Mailbox<RequestImage> requests_;
   Mailbox<InputImage> inputs_;
 };

@@ -18,6 +18,7 @@ class RegisterBank {
   explicit RegisterBank(Exchange& exchange);
 
   [[nodiscard]] Extent extent() const noexcept;
+  [[nodiscard]] bool writable() const noexcept { return !exchange_.only_watched(); }
   /// Bring the input registers up to the last tick.
   void refresh(bool somebody_in_command) noexcept;
   /// Store what a client wrote, checked before, and give the axes that it touches to the tick.

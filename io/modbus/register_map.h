@@ -35,6 +35,11 @@
 // disabled), and 9 a client is in command, 11 the torque command was clipped, 12 the index was passed within the tick,
 // 14 at the low end stop, 15 at the high end stop.
 
+// Writing: the first client to write takes command and keeps it until it disconnects, or until it has written nothing for
+// the idle time and another one wants to; the others are answered with exception 6 (busy) and nothing changes. A change of
+// command clears the holding registers. Torque commands may come in any order of writes: each write that touches an axis's
+// registers 0-4 is a new command made of all five as they then stand.
+
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -29,7 +29,7 @@ enum class Refusal : std::uint8_t {
   illegal_function = 1,
   illegal_address = 2,
   illegal_value = 3,
-  busy = 6,  ///< another client is in command
+  busy = 6,  ///< another client, or another port, is in command
 };
 
 struct RegisterRange {

@@ -12,6 +12,7 @@ void Responder::leave(ClientId client) noexcept {
 }
 
 bool Responder::may_write(ClientId client, std::int64_t now_ns) noexcept {
+  if (!bank_.writable()) return false;
   switch (command_.ask(client, now_ns)) {
     case CommandRight<ClientId>::Answer::refused:
       return false;

@@ -20,7 +20,7 @@
 namespace feedtwin::io::modbus {
 namespace {
 
-constexpr int events_at_once = 32, accepted_at_once = 16, backlog = 128;
+constexpr int events_at_once = 32, accepted_at_once = 16, backlog = 1024;
 constexpr int tend_ms = 100;                           // how often slow clients are looked for
 constexpr std::size_t buffer_bytes = 2048;             // some requests in flight
 constexpr int silence_s = 5, probe_s = 2, probes = 3;  // a vanished peer is found after 11 s
