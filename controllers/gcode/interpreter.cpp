@@ -1,0 +1,389 @@
+#include "controllers/gcode/interpreter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "controllers/gcode/arc.h"
+#include "controllers/gcode/block.h"
+#include "controllers/gcode/modal_groups.h"
+
+namespace feedtwin::controllers::gcode {
+namespace {
+
+constexpr double mm = 1e-3;
+constexpr double inch = 25.4e-3;
+constexpr double rpm = 2.0 * std::numbers::pi / 60.0;
+constexpr double largest_coordinate_m = 1e4;  // beyond any machine; keeps all that follows finite
+constexpr double largest_dwell_s = 1e5;
+constexpr double largest_feed_m_per_s = 1e4;
+constexpr double largest_speed_rpm = 1e6;
+
+enum class FeedMode { per_minute, inverse_time, per_revolution };
+enum class Motion { traverse = 0, feed = 1, clockwise = 2, counterclockwise = 3, none = 80 };
+
+std::string shown(char letter, int tenths) {
+  std::string text = letter + std::to_string(tenths / 10);
+  return tenths % 10 == 0 ? text : text + "." + std::to_string(tenths % 10);
+}
+
+/// The codes of one line by group.
+struct Codes {
+  std::array<std::optional<Code>, static_cast<std::size_t>(GGroup::count)> g;
+  std::array<std::optional<Code>, static_cast<std::size_t>(MGroup::count)> m;
+  bool machine_coordinates = false;  // G53, beside a motion
+  bool mist = false, flood = false;  // M7 and M8 may stand together
+
+  [[nodiscard]] const std::optional<Code>& operator[](GGroup group) const { return g[static_cast<std::size_t>(group)]; }
+  [[nodiscard]] const std::optional<Code>& operator[](MGroup group) const { return m[static_cast<std::size_t>(group)]; }
+};
+
+Codes sort_codes(const Block& block) {
+  Codes codes;
+  for (const Code& code : block.g) {
+    const auto group = group_of_g(code.tenths);
+    if (!group) block.fail(code.at, shown('G', code.tenths) + " is not supported");
+    auto& slot = codes.g[static_cast<std::size_t>(*group)];
+    if (slot) block.fail(code.at, shown('G', code.tenths) + " excludes " + shown('G', slot->tenths) + " on the same line");
+    slot = code;
+    codes.machine_coordinates = codes.machine_coordinates || code.tenths == 530;
+  }
+  for (const Code& code : block.m) {
+    const auto group = group_of_m(code.tenths);
+    if (!group) block.fail(code.at, shown('M', code.tenths) + " is not supported");
+    auto& slot = codes.m[static_cast<std::size_t>(*group)];
+    const bool both_pumps = slot && (slot->tenths == 70 || slot->tenths == 80) && (code.tenths == 70 || code.tenths == 80) &&
+                            slot->tenths != code.tenths;
+    if (slot && !both_pumps) {
+      block.fail(code.at, shown('M', code.tenths) + " excludes " + shown('M', slot->tenths) + " on the same line");
+    }
+    slot = code;
+    codes.mist = codes.mist || code.tenths == 70;
+    codes.flood = codes.flood || code.tenths == 80;
+  }
+  return codes;
+}
+
+class Interpreter {
+ public:
+  explicit Interpreter(const InterpreterSettings& settings)
+      : parameters_(settings.parameters), block_delete_(settings.block_delete), at_m_(settings.start_m) {
+    parameters_.numbered.resize(parameter_count, 0.0);
+    select_coordinates(0);
+  }
+
+  Program run(std::string_view text) {
+    std::size_t line = 0;
+    bool percent_seen = false, anything = false;
+    while (!ended_ && !text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      std::string_view content = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      ++line;
+      if (Scanner(content, line).peek() == '%') {
+        if (percent_seen || anything) emit(line, ProgramEnd{});
+        ended_ = percent_seen || anything;
+        percent_seen = true;
+        continue;
+      }
+      const Block block = read_block(content, line, parameters_);
+      if (!(block.deleted && block_delete_)) execute(block);
+      anything = true;
+    }
+    if (!ended_) throw GcodeError(std::max<std::size_t>(line, 1), 1, "the program has no end (M2, M30 or a closing %)");
+    return std::move(program_);
+  }
+
+ private:
+  template <class A>
+  void emit(std::size_t line, A action) {
+    program_.push_back({line, Action{action}});
+  }
+
+  // In the order of NISTIR 6556, table 8.
+  void execute(const Block& block) {
+    const Codes codes = sort_codes(block);
+    check_words(block, codes);
+    feed_mode(block, codes);
+    if (const auto& s = block.word('s')) spindle_speed(block, *s);
+    if (const auto& t = block.word('t')) select_tool(block, *t);
+    m_codes(block, codes);
+    if (is(codes[GGroup::non_modal], 40)) dwell(block);
+    modes(block, codes);
+    if (is(codes[GGroup::non_modal], 280)) {
+      go_home(block);
+    } else {
+      motion(block, codes);
+    }
+    for (const auto& setting : block.settings) set_parameter(setting);
+    stopping(block, codes);
+  }
+
+  static bool is(const std::optional<Code>& code, int tenths) { return code && code->tenths == tenths; }
+  static bool has_axis(const Block& block) { return block.word('x') || block.word('y') || block.word('z'); }
+
+  void check_words(const Block& block, const Codes& codes) const {
+    const auto& written = codes[GGroup::motion];
+    const int motion = written ? written->tenths / 10 : static_cast<int>(motion_);
+    const bool homing = is(codes[GGroup::non_modal], 280);
+    const bool moves = (written || has_axis(block)) && motion != static_cast<int>(Motion::none) && !homing;
+    const bool arc = moves && (motion == 2 || motion == 3);
+    const bool dwell = is(codes[GGroup::non_modal], 40);
+    const bool blending = is(codes[GGroup::path_mode], 640);
+    const auto needs = [&](char letter, bool allowed, const char* where) {
+      const auto& word = block.word(letter);
+      if (word && !allowed) {
+        block.fail(word->at, std::string("a ") + static_cast<char>(letter - 'a' + 'A') + " word without " + where);
+      }
+    };
+    for (const char letter : {'i', 'j', 'k', 'r'}) needs(letter, arc, "G2 or G3");
+    needs('p', arc || dwell || blending, "G2, G3, G4 or G64");
+    needs('q', blending, "G64");
+    if (homing && written) block.fail(written->at, "a motion on the same line as G28");
+    if (homing && !codes.machine_coordinates) return;
+    if (codes.machine_coordinates && !(moves && motion <= 1)) {
+      block.fail(codes[GGroup::non_modal]->at, "G53 without G0 or G1");
+    }
+    if (!has_axis(block)) return;
+    const auto& axis = block.word('x') ? block.word('x') : block.word('y') ? block.word('y') : block.word('z');
+    if (!moves) block.fail(axis->at, "an axis word without a motion in force");
+  }
+
+  void feed_mode(const Block& block, const Codes& codes) {
+    if (const auto& code = codes[GGroup::feed_mode]) {
+      feed_mode_ = code->tenths == 930   ? FeedMode::inverse_time
+                   : code->tenths == 940 ? FeedMode::per_minute
+                                         : FeedMode::per_revolution;
+      feed_ = 0.0;  // a feed of the other kind means nothing in this one
+    }
+    if (const auto& f = block.word('f')) {
+      if (f->value < 0.0) block.fail(f->at, "expected a feed from 0 up");
+      // lengths are in the units in force before this line's G20 or G21 (NISTIR 6556, table 8: F comes first)
+      feed_ = feed_mode_ == FeedMode::inverse_time ? f->value : f->value * unit_m_;
+    }
+  }
+
+  void spindle_speed(const Block& block, const Word& s) {
+    if (s.value < 0.0 || s.value > largest_speed_rpm) block.fail(s.at, "expected a spindle speed from 0 to 1e6 rpm");
+    spindle_.speed_rad_per_s = s.value * rpm;
+    emit(block.line, spindle_);
+  }
+
+  void select_tool(const Block& block, const Word& t) {
+    const double whole = std::round(t.value);
+    if (whole < 0.0 || whole > 1e6 || std::abs(whole - t.value) > 1e-4) block.fail(t.at, "expected a tool number after T");
+    tool_ = static_cast<int>(whole);
+    emit(block.line, SelectTool{tool_});
+  }
+
+  void m_codes(const Block& block, const Codes& codes) {
+    if (codes[MGroup::tool_change]) {
+      spindle_off(block);
+      emit(block.line, ChangeTool{tool_});
+    }
+    if (const auto& code = codes[MGroup::spindle]) {
+      spindle_.turn = code->tenths == 30   ? SpindleTurn::clockwise
+                      : code->tenths == 40 ? SpindleTurn::counterclockwise
+                                           : SpindleTurn::off;
+      emit(block.line, spindle_);
+    }
+    if (codes[MGroup::coolant]) {
+      const bool off = !codes.mist && !codes.flood;
+      coolant_ = off ? SetCoolant{} : SetCoolant{coolant_.mist || codes.mist, coolant_.flood || codes.flood};
+      emit(block.line, coolant_);
+    }
+  }
+
+  void spindle_off(const Block& block) {
+    if (spindle_.turn == SpindleTurn::off) return;
+    spindle_.turn = SpindleTurn::off;
+    emit(block.line, spindle_);
+  }
+
+  void dwell(const Block& block) {
+    const auto& p = block.word('p');
+    if (!p) block.fail(0, "G4 without a P word, s");
+    if (p->value < 0.0 || p->value > largest_dwell_s) block.fail(p->at, "expected a dwell from 0 to 1e5 s");
+    emit(block.line, Dwell{p->value});
+  }
+
+  void modes(const Block& block, const Codes& codes) {
+    if (const auto& code = codes[GGroup::plane]) plane_axis_ = code->tenths == 170 ? 2 : code->tenths == 180 ? 1 : 0;
+    if (const auto& code = codes[GGroup::units]) unit_m_ = code->tenths == 200 ? inch : mm;
+    if (const auto& code = codes[GGroup::coordinates]) {
+      select_coordinates(code->tenths <= 590 ? (code->tenths - 540) / 10 : code->tenths - 585);
+    }
+    if (const auto& code = codes[GGroup::path_mode]) path_mode(block, *code);
+    if (const auto& code = codes[GGroup::distance]) incremental_ = code->tenths == 910;
+  }
+
+  void path_mode(const Block& block, const Code& code) {
+    SetPathMode mode{code.tenths == 610   ? PathMode::exact_path
+                     : code.tenths == 611 ? PathMode::exact_stop
+                                          : PathMode::continuous};
+    for (const char letter : {'p', 'q'}) {
+      const auto& word = block.word(letter);
+      if (word && code.tenths == 640 && word->value < 0.0) block.fail(word->at, "expected a tolerance from 0 up");
+    }
+    const auto& p = block.word('p');
+    if (p && code.tenths == 640) mode.tolerance_m = p->value * unit_m_;
+    emit(block.line, mode);
+  }
+
+  void select_coordinates(int system) {
+    for (int axis = 0; axis < 3; ++axis) {
+      offset_m_[axis] = mm * numbered(first_offset_parameter + parameters_per_system * system + axis);
+    }
+  }
+
+  [[nodiscard]] double numbered(int index) const { return parameters_.numbered[static_cast<std::size_t>(index)]; }
+
+  static constexpr std::array<char, 3> axis_letters{'x', 'y', 'z'};
+
+  Point target(const Block& block, bool machine_coordinates) const {
+    Point to = at_m_;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto& word = block.word(axis_letters[static_cast<std::size_t>(axis)]);
+      if (!word) continue;
+      const double value_m = word->value * unit_m_;
+      if (machine_coordinates) {
+        to[axis] = value_m;
+      } else {
+        to[axis] = incremental_ ? at_m_[axis] + value_m : offset_m_[axis] + value_m;
+      }
+      if (!(std::abs(to[axis]) <= largest_coordinate_m)) block.fail(word->at, "the position is out of any machine's reach");
+    }
+    return to;
+  }
+
+  void go_home(const Block& block) {
+    const Point through = target(block, false);
+    emit(block.line, StraightTraverse{through});
+    Point home = through;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool all = !has_axis(block);
+      if (all || block.word(axis_letters[static_cast<std::size_t>(axis)])) home[axis] = mm * numbered(home_parameter + axis);
+      if (!(std::abs(home[axis]) <= largest_coordinate_m)) block.fail(0, "home is out of any machine's reach");
+    }
+    emit(block.line, StraightTraverse{home});
+    at_m_ = home;
+  }
+
+  void motion(const Block& block, const Codes& codes) {
+    const auto& written = codes[GGroup::motion];
+    if (written) motion_ = static_cast<Motion>(written->tenths / 10);
+    if (motion_ == Motion::none || !(has_axis(block) || written)) return;  // a bare G1 moves to where the tool is
+    const Point to = target(block, codes.machine_coordinates);
+    if (motion_ == Motion::traverse) {
+      emit(block.line, StraightTraverse{to});
+    } else if (motion_ == Motion::feed) {
+      emit(block.line, StraightFeed{to, feed_m_per_s(block, length(to - at_m_))});
+    } else {
+      arc(block, to);
+    }
+    at_m_ = to;
+  }
+
+  double feed_m_per_s(const Block& block, double length_m) const {
+    if (feed_mode_ == FeedMode::inverse_time && !block.word('f'))
+      block.fail(0, "G93 asks for an F word on every line that feeds");
+    if (feed_ <= 0.0) block.fail(0, "a feed move without a feed (F)");
+    double feed = 0.0;
+    if (feed_mode_ == FeedMode::inverse_time) {
+      feed = length_m * feed_ / 60.0;
+    } else if (feed_mode_ == FeedMode::per_minute) {
+      feed = feed_ / 60.0;
+    } else {
+      if (spindle_.speed_rad_per_s <= 0.0) block.fail(0, "a feed per revolution without a spindle speed (S)");
+      feed = feed_ * spindle_.speed_rad_per_s / (2.0 * std::numbers::pi);
+    }
+    const auto& f = block.word('f');
+    if (!(feed <= largest_feed_m_per_s)) block.fail(f ? f->at : 0, "the feed is beyond any machine");
+    return feed;
+  }
+
+  void arc(const Block& block, const Point& to) {
+    // first and second of the plane in the right-handed order about its axis; I, J, K belong to x, y, z
+    const int first = (plane_axis_ + 1) % 3, second = (plane_axis_ + 2) % 3;
+    constexpr std::array<char, 3> centre_letters{'i', 'j', 'k'};
+    const auto& off_plane = block.word(centre_letters[static_cast<std::size_t>(plane_axis_)]);
+    if (off_plane) block.fail(off_plane->at, "an offset of the centre out of the arc's plane");
+    const auto& a = block.word(centre_letters[static_cast<std::size_t>(first)]);
+    const auto& b = block.word(centre_letters[static_cast<std::size_t>(second)]);
+    const auto& r = block.word('r');
+    if (r && (a || b)) block.fail(r->at, "an arc with both a radius and a centre");
+    if (!r && !a && !b) block.fail(0, "an arc without a radius (R) or a centre (I, J, K)");
+    const PlanarPoint from{at_m_[first], at_m_[second]}, end{to[first], to[second]};
+    const bool clockwise = motion_ == Motion::clockwise;
+    const auto& tolerance = unit_m_ == inch ? inch_arc_tolerance : metric_arc_tolerance;
+    const ArcResult result = r ? arc_from_radius(from, end, r->value * unit_m_, clockwise, turns(block), tolerance)
+                               : arc_from_centre(from, end, {a ? a->value * unit_m_ : 0.0, b ? b->value * unit_m_ : 0.0},
+                                                 clockwise, turns(block), tolerance);
+    const std::size_t at = r ? r->at : a ? a->at : b->at;
+    if (!result.problem.empty()) block.fail(at, result.problem);
+    ArcFeed command{to, at_m_, plane_axis_, result.arc.sweep_rad, 0.0};
+    command.centre_m[first] = result.arc.centre.first;
+    command.centre_m[second] = result.arc.centre.second;
+    const double radius = std::hypot(from.first - result.arc.centre.first, from.second - result.arc.centre.second);
+    if (!(radius <= largest_coordinate_m)) block.fail(at, "the arc's radius is beyond any machine");
+    command.feed_m_per_s =
+        feed_m_per_s(block, std::hypot(radius * result.arc.sweep_rad, to[plane_axis_] - at_m_[plane_axis_]));
+    emit(block.line, command);
+  }
+
+  static int turns(const Block& block) {
+    const auto& p = block.word('p');
+    if (!p) return 1;
+    const double whole = std::round(p->value);
+    if (whole < 1.0 || whole > 1000.0 || std::abs(whole - p->value) > 1e-4) block.fail(p->at, "expected 1 to 1000 turns");
+    return static_cast<int>(whole);
+  }
+
+  void set_parameter(const Block::Setting& setting) {
+    if (setting.name.number > 0) {
+      parameters_.numbered[static_cast<std::size_t>(setting.name.number)] = setting.value;
+    } else {
+      parameters_.named[setting.name.name] = setting.value;
+    }
+  }
+
+  void stopping(const Block& block, const Codes& codes) {
+    const auto& code = codes[MGroup::stopping];
+    if (!code) return;
+    if (code->tenths <= 10) {
+      emit(block.line, ProgramStop{code->tenths == 10});
+      return;
+    }
+    spindle_off(block);
+    if (coolant_.mist || coolant_.flood) emit(block.line, SetCoolant{});
+    emit(block.line, ProgramEnd{});
+    ended_ = true;
+  }
+
+  Parameters parameters_;
+  bool block_delete_;
+  Program program_;
+  bool ended_ = false;
+
+  Point at_m_;      // machine coordinates
+  Point offset_m_;  // of the coordinate system in force
+  double unit_m_ = mm;
+  int plane_axis_ = 2;
+  bool incremental_ = false;
+  Motion motion_ = Motion::traverse;
+  FeedMode feed_mode_ = FeedMode::per_minute;
+  double feed_ = 0.0;  // m/min, m/rev or moves a minute
+  SetSpindle spindle_;
+  SetCoolant coolant_;
+  int tool_ = 0;
+};
+
+}  // namespace
+
+Program interpret(std::string_view text, const InterpreterSettings& settings) {
+  return Interpreter(settings).run(text);
+}
+
+}  // namespace feedtwin::controllers::gcode
