@@ -8,8 +8,8 @@
 namespace feedtwin::rt {
 namespace {
 
-struct Run {
-  Run() {
+struct Facts {
+  Facts() {
     stats.ticks = 10000;
     for (int i = 0; i < 10000; ++i) stats.wakeup.record(5000);
     facts.stats = &stats;
@@ -20,7 +20,7 @@ struct Run {
 };
 
 TEST(RunVerdict, AQuietRunIsSoundWithoutAReason) {
-  Run run;
+  Facts run;
   const auto verdict = judge(run.facts);
   EXPECT_EQ(verdict.verdict, Verdict::sound);
   EXPECT_TRUE(verdict.reasons.empty());
@@ -30,31 +30,31 @@ TEST(RunVerdict, EachThingThatCanGoWrongIsSaidAndWeighed) {
   struct Case {
     const char* what;
     Verdict expected;
-    std::function<void(Run&)> spoil;
+    std::function<void(Facts&)> spoil;
   };
   const Case cases[] = {
       {"denied", Verdict::not_valid_for_latency,
-       [](Run& r) { r.facts.settings.push_back({"scheduling", "SCHED_FIFO 80", "denied", "no right", false}); }},
-      {"missed", Verdict::not_valid_for_latency, [](Run& r) { r.stats.missed_ticks = 3; }},
-      {"many missed", Verdict::unsound, [](Run& r) { r.stats.missed_ticks = 1000; }},
+       [](Facts& r) { r.facts.settings.push_back({"scheduling", "SCHED_FIFO 80", "denied", "no right", false}); }},
+      {"missed", Verdict::not_valid_for_latency, [](Facts& r) { r.stats.missed_ticks = 3; }},
+      {"many missed", Verdict::unsound, [](Facts& r) { r.stats.missed_ticks = 1000; }},
       {"late", Verdict::not_valid_for_latency,
-       [](Run& r) {
+       [](Facts& r) {
          for (int i = 0; i < 100; ++i) r.stats.wakeup.record(400'000);
        }},
-      {"stopped", Verdict::unsound, [](Run& r) { r.stats.stopped_by_overrun = true; }},
-      {"dropped", Verdict::unsound, [](Run& r) { r.stats.dropped_records = 1; }},
-      {"disk full", Verdict::unsound, [](Run& r) { r.facts.unwritten_rows = 1; }},
-      {"balance", Verdict::unsound, [](Run& r) { r.facts.energy_balance_error = 0.01; }},
-      {"not finite", Verdict::unsound, [](Run& r) { r.facts.finite = false; }},
-      {"no tick", Verdict::unsound, [](Run& r) { r.stats.ticks = 0; }},
+      {"stopped", Verdict::unsound, [](Facts& r) { r.stats.stopped_by_overrun = true; }},
+      {"dropped", Verdict::unsound, [](Facts& r) { r.stats.dropped_records = 1; }},
+      {"disk full", Verdict::unsound, [](Facts& r) { r.facts.unwritten_rows = 1; }},
+      {"balance", Verdict::unsound, [](Facts& r) { r.facts.energy_balance_error = 0.01; }},
+      {"not finite", Verdict::unsound, [](Facts& r) { r.facts.finite = false; }},
+      {"no tick", Verdict::unsound, [](Facts& r) { r.stats.ticks = 0; }},
       {"port", Verdict::unsound,
-       [](Run& r) { r.facts.counters.push_back({"gpio: edges", "above the edge rate", 5, true}); }},
-      {"port note", Verdict::sound, [](Run& r) { r.facts.counters.push_back({"modbus: clients", "refused", 5, false}); }},
-      {"watchdog", Verdict::sound, [](Run& r) { r.facts.guards[0].watchdog = 1; }},
-      {"clipped", Verdict::sound, [](Run& r) { r.facts.guards[0].clipped = 1; }},
+       [](Facts& r) { r.facts.counters.push_back({"gpio: edges", "above the edge rate", 5, true}); }},
+      {"port note", Verdict::sound, [](Facts& r) { r.facts.counters.push_back({"modbus: clients", "refused", 5, false}); }},
+      {"watchdog", Verdict::sound, [](Facts& r) { r.facts.guards[0].watchdog = 1; }},
+      {"clipped", Verdict::sound, [](Facts& r) { r.facts.guards[0].clipped = 1; }},
   };
   for (const auto& c : cases) {
-    Run run;
+    Facts run;
     c.spoil(run);
     const auto verdict = judge(run.facts);
     EXPECT_EQ(verdict.verdict, c.expected) << c.what;
@@ -63,7 +63,7 @@ TEST(RunVerdict, EachThingThatCanGoWrongIsSaidAndWeighed) {
 }
 
 TEST(RunVerdict, OffLineLatenessMeansNothing) {
-  Run run;
+  Facts run;
   run.facts.timed = false;
   for (int i = 0; i < 1000; ++i) run.stats.wakeup.record(4'000'000);
   EXPECT_EQ(judge(run.facts).verdict, Verdict::sound);

@@ -1,5 +1,6 @@
 #include "tests/support/allocation_guard.h"
 
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 

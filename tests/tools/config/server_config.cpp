@@ -1,0 +1,170 @@
+#include "tools/config/server_config.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "plant/parameter_table.h"
+#include "tools/config/axis_file.h"
+#include "tools/config/input_error.h"
+#include "tools/config/whole_file.h"
+
+namespace feedtwin::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ServerConfigFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("feedtwin-config-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string write(const std::string& text) const {
+    const auto path = (folder_ / "server.toml").string();
+    write_whole_file(path, text);
+    return path;
+  }
+  /// The source's axis as text, with one line changed by `edit` (key without its table).
+  [[nodiscard]] static std::string axis_text(std::string_view key,
+                                             const std::function<std::string(const std::string&)>& edit) {
+    const auto path = fs::temp_directory_path() / ("feedtwin-axis-" + std::to_string(::getpid()) + ".toml");
+    write_axis_file(path.string(), plant::source_axis());
+    const std::string text = read_whole_file(path.string());
+    fs::remove(path);
+    std::string table, out;
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+      const std::size_t end = text.find('\n', begin);
+      std::string line = text.substr(begin, end - begin);
+      begin = end + 1;
+      if (line.starts_with("[")) table = line.substr(1, line.size() - 2);
+      const std::string name = table + "." + line.substr(0, line.find(' '));
+      out += (name == key ? edit(line) : line) + "\n";
+    }
+    return out;
+  }
+  /// The message that reading this text ends with; empty if it is accepted.
+  [[nodiscard]] std::string error_of(const std::string& text) const {
+    try {
+      (void)read_server_config({.path = write(text), .with_ports = false});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  fs::path folder_;
+};
+
+std::string set(const std::string& line, const std::string& value) {
+  return line.substr(0, line.find('=')) + "= " + value;
+}
+
+TEST_F(ServerConfigFile, EveryAxisKeyMissingUnknownWrongTypeOutOfRangeNotFinite) {
+  for (const auto& entry : plant::parameter_table()) {
+    const std::string key(entry.key);
+    const auto with = [&](const std::string& value) {
+      return error_of(axis_text(key, [&](const std::string& line) { return set(line, value); }));
+    };
+    const auto missing = error_of(axis_text(key, [](const std::string&) { return std::string(); }));
+    if (entry.preset) {
+      EXPECT_EQ(missing, "") << key << " is optional";
+    } else {
+      EXPECT_NE(missing.find(key + ": missing"), std::string::npos) << missing;
+    }
+    for (const std::string value : {"\"heavy\"", "true", "[1.0]", "nan", "inf", "-inf", "1e300", "-1e300"}) {
+      const auto message = with(value);
+      EXPECT_NE(message.find("server.toml:"), std::string::npos) << key << " = " << value << " gave: " << message;
+      EXPECT_NE(message.find(key + ": expected"), std::string::npos) << key << " = " << value << " gave: " << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
+    }
+    const auto unknown = error_of(axis_text(key, [](const std::string& line) { return line + "\nmisspelt_N = 1"; }));
+    EXPECT_NE(unknown.find("misspelt_N: unknown key"), std::string::npos) << unknown;
+  }
+}
+
+TEST_F(ServerConfigFile, EveryServerKeyWrongTypeOutOfRange) {
+  struct Key {
+    const char *table, *key, *out_of_range;
+  };
+  const Key keys[] = {
+      {"server", "period_s", "0.0"},
+      {"server", "watchdog_s", "-1.0"},
+      {"server", "late_us", "0.0"},
+      {"server", "overrun", "\"sometimes\""},
+      {"server", "pace", "\"slow\""},
+      {"server", "lockstep_timeout_s", "1e9"},
+      {"server", "controller", "\"nobody\""},
+      {"server", "priority", "100"},
+      {"server", "cpu", "-2"},
+      {"server", "axes", "[\"not-there.toml\"]"},
+      {"loopback", "motion", "\"waltz\""},
+      {"loopback", "amplitude_m", "0.0"},
+      {"loopback", "speed_m_per_s", "-1.0"},
+      {"loopback", "acceleration_m_per_s2", "nan"},
+      {"loopback", "jerk_m_per_s3", "inf"},
+      {"loopback", "dwell_s", "-0.1"},
+      {"loopback", "position_per_s", "-1.0"},
+      {"loopback", "velocity_Ns_per_m", "-1.0"},
+      {"loopback", "velocity_integral_N_per_m", "-1.0"},
+      {"loopback", "velocity_feedforward", "3.0"},
+      {"loopback", "acceleration_feedforward_kg", "-1.0"},
+      {"loopback", "current_loop_time_constant_s", "2.0"},
+  };
+  for (const auto& k : keys) {
+    for (const std::string value : {std::string(k.out_of_range), std::string("{}"), std::string("1979-05-27")}) {
+      const auto message = error_of("[" + std::string(k.table) + "]\n" + k.key + " = " + value + "\n");
+      EXPECT_NE(message, "") << k.table << "." << k.key << " = " << value << " was accepted";
+      if (value != k.out_of_range) EXPECT_NE(message.find(std::string(k.table) + "." + k.key), std::string::npos) << message;
+    }
+  }
+  for (const std::string line : {"real_time = 1", "lock_memory = \"yes\"", "hold_cpu_latency = 0"}) {
+    EXPECT_NE(error_of("[server]\n" + line).find("expected true or false"), std::string::npos) << line;
+  }
+}
+
+TEST_F(ServerConfigFile, WhatIsNotTomlOrNotThere) {
+  EXPECT_NE(error_of("[server\nperiod_s = 1").find("not valid TOML"), std::string::npos);
+  EXPECT_NE(error_of("[[port]]\nkind = \"pigeon\"").find("port[0].kind: expected one of"), std::string::npos);
+  EXPECT_NE(error_of("[[port]]\n").find("kind is missing"), std::string::npos);
+  EXPECT_NE(error_of("[servr]\nperiod_s = 1.0").find("servr.period_s: unknown key"), std::string::npos);
+  EXPECT_THROW((void)read_server_config({.path = (folder_ / "nothing.toml").string()}), InputError);
+  EXPECT_THROW((void)read_server_config({.path = folder_.string()}), InputError);
+  EXPECT_THROW((void)read_server_config({.path = "", .controller = "pigeon"}), InputError);
+}
+
+TEST_F(ServerConfigFile, WithoutAFileItIsTheSourcesAxis) {
+  const auto config = read_server_config({.path = "", .with_ports = false});
+  ASSERT_EQ(config.axes.size(), 1U);
+  EXPECT_EQ(config.controller, "modbus");
+  EXPECT_EQ(config.loop.tick_s, 1e-3);
+  auto expected = plant::source_axis();
+  auto read = config.axes[0];
+  for (const auto& entry : plant::parameter_table()) EXPECT_EQ(entry.in(read), entry.in(expected)) << entry.key;
+}
+
+TEST_F(ServerConfigFile, AnAxisFileWrittenAndReadIsTheSame) {
+  auto axis = plant::source_axis();
+  axis.guide_mass_kg = 4.0 / 3.0;
+  const auto path = (folder_ / "axis.toml").string();
+  write_axis_file(path, axis);
+  auto read = read_axis_file(path);
+  for (const auto& entry : plant::parameter_table()) EXPECT_EQ(entry.in(read), entry.in(axis)) << entry.key;
+}
+
+TEST_F(ServerConfigFile, AxesStandBesideTheConfigurationThatNamesThem) {
+  write_axis_file((folder_ / "x.toml").string(), plant::source_axis());
+  const auto config =
+      read_server_config({.path = write("[server]\naxes = [\"x.toml\", \"x.toml\"]\n[[loopback]]\nmotion = \"sine\"\n"
+                                        "[[loopback]]\nmotion = \"s_curve\"\n"),
+                          .with_ports = false});
+  ASSERT_EQ(config.axes.size(), 2U);
+  EXPECT_EQ(config.loopback[0].motion->name, "sine");
+  EXPECT_EQ(config.loopback[1].motion->name, "s_curve");
+}
+
+}  // namespace
+}  // namespace feedtwin::tools
