@@ -205,7 +205,9 @@ void TomlFile::reject_unknown() const {
   std::string first;
   std::size_t first_line = 0;
   for (const auto& leaf : leaves) {
-    if (content_->asked.contains(leaf)) continue;
+    const auto known = content_->asked.lower_bound(leaf);
+    // asked for itself, or an empty table with keys that may stand in it
+    if (known != content_->asked.end() && (*known == leaf || known->starts_with(leaf + "."))) continue;
     const std::size_t line = content_->find(leaf)->source().begin.line;
     if (first.empty() || line < first_line) {
       first = leaf;

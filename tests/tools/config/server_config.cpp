@@ -115,10 +115,12 @@ TEST_F(ServerConfigFile, EveryServerKeyWrongTypeOutOfRange) {
       {"loopback", "current_loop_time_constant_s", "2.0"},
   };
   for (const auto& k : keys) {
-    for (const std::string value : {std::string(k.out_of_range), std::string("{}"), std::string("1979-05-27")}) {
+    for (const std::string& value : {std::string(k.out_of_range), std::string("{}"), std::string("1979-05-27")}) {
       const auto message = error_of("[" + std::string(k.table) + "]\n" + k.key + " = " + value + "\n");
       EXPECT_NE(message, "") << k.table << "." << k.key << " = " << value << " was accepted";
-      if (value != k.out_of_range) EXPECT_NE(message.find(std::string(k.table) + "." + k.key), std::string::npos) << message;
+      if (value != k.out_of_range) {
+        EXPECT_NE(message.find(std::string(k.table) + "." + k.key), std::string::npos) << message;
+      }
     }
   }
   for (const std::string line : {"real_time = 1", "lock_memory = \"yes\"", "hold_cpu_latency = 0"}) {
