@@ -46,7 +46,8 @@ void PlantLoop::tick(const TickStart& start) noexcept {
   const std::int64_t begin_ns = monotonic_ns();
   const std::int64_t late_ns = start.woken_ns - start.planned_ns;
   lateness_us_ = static_cast<double>(late_ns) * 1e-3;
-  stats_->wakeup.record(late_ns);
+  if (start.slept) stats_->wakeup.record(late_ns);
+  stats_->late_starts += start.slept ? 0 : 1;
   stats_->missed_ticks += start.missed;
   if (start.missed > 0) note(EventKind::missed_ticks, -1, static_cast<double>(start.missed));
   if (lateness_us_ > settings_.late_us) note(EventKind::late_tick, -1, lateness_us_);

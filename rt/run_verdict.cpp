@@ -39,6 +39,10 @@ void judge_timing(const RunFacts& facts, Judge& judge) {
               text("%llu of %llu ticks missed", static_cast<unsigned long long>(stats.missed_ticks),
                    static_cast<unsigned long long>(stats.missed_ticks + stats.ticks)));
   }
+  if (stats.late_starts > 0) {
+    judge.say(Verdict::not_valid_for_latency, text("%llu ticks began late because the one before ended late",
+                                                   static_cast<unsigned long long>(stats.late_starts)));
+  }
   const double late_us = stats.wakeup.percentile_us(0.999);
   const double tolerated_us = 0.1 * facts.tick_s * 1e6;
   if (late_us > tolerated_us) {

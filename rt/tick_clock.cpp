@@ -35,7 +35,8 @@ TickStart GridClock::wait() noexcept {
       start.proceed = overrun_ != Overrun::stop;
     }
   }
-  if (before_ns < next_ns_) sleep_until(next_ns_);
+  start.slept = before_ns < next_ns_;
+  if (start.slept) sleep_until(next_ns_);
   start.planned_ns = next_ns_;
   start.woken_ns = monotonic_ns();
   next_ns_ += period_ns_;

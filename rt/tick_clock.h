@@ -21,6 +21,7 @@ struct TickStart {
   std::int64_t planned_ns = 0;  ///< CLOCK_MONOTONIC
   std::int64_t woken_ns = 0;
   std::uint64_t missed = 0;  ///< grid points passed over since the last tick
+  bool slept = true;         ///< false: the tick before ended too late for a wait; not a wake-up to be measured
   bool proceed = true;       ///< false: the run ends here
 };
 

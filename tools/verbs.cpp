@@ -1,5 +1,6 @@
 #include <array>
 
+#include "tools/latency/latency.h"
 #include "tools/serve.h"
 #include "tools/simulate.h"
 #include "tools/verb.h"
@@ -11,6 +12,7 @@ std::span<const Verb> verbs() noexcept {
       Verb{"serve", "the real-time plant server: a controller outside closes the loop", prepare_serve},
       Verb{"simulate", "controller and plant off line, faster than real time, deterministic; writes a recording",
            prepare_simulate},
+      Verb{"latency", "wake-up, tick and input-to-output latency of this host, beside cyclictest", prepare_latency},
   };
   return all;
 }

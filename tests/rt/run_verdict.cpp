@@ -36,6 +36,7 @@ TEST(RunVerdict, EachThingThatCanGoWrongIsSaidAndWeighed) {
       {"denied", Verdict::not_valid_for_latency,
        [](Facts& r) { r.facts.settings.push_back({"scheduling", "SCHED_FIFO 80", "denied", "no right", false}); }},
       {"missed", Verdict::not_valid_for_latency, [](Facts& r) { r.stats.missed_ticks = 3; }},
+      {"late start", Verdict::not_valid_for_latency, [](Facts& r) { r.stats.late_starts = 1; }},
       {"many missed", Verdict::unsound, [](Facts& r) { r.stats.missed_ticks = 1000; }},
       {"late", Verdict::not_valid_for_latency,
        [](Facts& r) {

@@ -43,10 +43,10 @@ std::string shown(const toml::node& node) {
   return out.str();
 }
 
-/// Every value's path below a table, arrays of tables spelled out.
+/// Every value's path below a table, arrays of tables spelled out; an empty table's path ends with a dot.
 void collect(const toml::node& node, const std::string& path, std::vector<std::string>& leaves) {
   if (const auto* table = node.as_table()) {
-    if (table->empty() && !path.empty()) leaves.push_back(path);
+    if (table->empty() && !path.empty()) leaves.push_back(path + ".");
     for (const auto& [key, value] : *table) {
       collect(value, path.empty() ? std::string(key.str()) : path + "." + std::string(key.str()), leaves);
     }
@@ -206,11 +206,11 @@ void TomlFile::reject_unknown() const {
   std::size_t first_line = 0;
   for (const auto& leaf : leaves) {
     const auto known = content_->asked.lower_bound(leaf);
-    // asked for itself, or an empty table with keys that may stand in it
-    if (known != content_->asked.end() && (*known == leaf || known->starts_with(leaf + "."))) continue;
-    const std::size_t line = content_->find(leaf)->source().begin.line;
+    if (known != content_->asked.end() && (*known == leaf || (leaf.back() == '.' && known->starts_with(leaf)))) continue;
+    const std::string key = leaf.back() == '.' ? leaf.substr(0, leaf.size() - 1) : leaf;
+    const std::size_t line = content_->find(key)->source().begin.line;
     if (first.empty() || line < first_line) {
-      first = leaf;
+      first = key;
       first_line = line;
     }
   }

@@ -89,6 +89,7 @@ nlohmann::json to_json(const RunSummary& summary) {
   out["parameter_hash"] = summary.parameter_hash;
   out["ticks"] = stats.ticks;
   out["missed_ticks"] = stats.missed_ticks;
+  out["late_starts"] = stats.late_starts;
   out["dropped_rows"] = stats.dropped_records;
   out["verdict"] = rt::name(summary.verdict.verdict);
   out["reasons"] = summary.verdict.reasons;

@@ -133,6 +133,9 @@ TEST_F(ServerConfigFile, WhatIsNotTomlOrNotThere) {
   EXPECT_NE(error_of("[[port]]\nkind = \"pigeon\"").find("port[0].kind: expected one of"), std::string::npos);
   EXPECT_NE(error_of("[[port]]\n").find("kind is missing"), std::string::npos);
   EXPECT_NE(error_of("[servr]\nperiod_s = 1.0").find("servr.period_s: unknown key"), std::string::npos);
+  EXPECT_NE(error_of("server = 3").find("server: unknown key"), std::string::npos) << "a value where a table should be";
+  EXPECT_NE(error_of("[nothing]").find("nothing: unknown key"), std::string::npos);
+  EXPECT_EQ(error_of("[server]"), "");
   EXPECT_THROW((void)read_server_config({.path = (folder_ / "nothing.toml").string()}), InputError);
   EXPECT_THROW((void)read_server_config({.path = folder_.string()}), InputError);
   EXPECT_THROW((void)read_server_config({.path = "", .controller = "pigeon"}), InputError);
