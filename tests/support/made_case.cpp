@@ -43,7 +43,6 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
     push(channel::torque_cmd_Nm, torque_Nm);
     push(channel::position_m, position_m);
     push(channel::reference_m, reference.position_m);
-    if (run.sensors) push(channel::power_W, signals.metered_power_W);
     if (run.sensors) {
       push(channel::scale_position_m, run.quantised ? std::round(position_m * 1e8) * 1e-8 : position_m);
       const auto sensors = axis.force_sensors({.torque_Nm = torque_Nm});
@@ -51,6 +50,7 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
       push(channel::force_sensor_N, sensors.force_sensor_N + run.force_noise_N * unit(random));
     }
     axis.step({.torque_Nm = torque_Nm}, 1e-3);
+    if (run.sensors) push(channel::power_W, axis.signals().metered_power_W);
   }
   return recording;
 }

@@ -17,7 +17,7 @@ namespace feedtwin::tests {
 /// What a run of the made testbed looks like.
 struct MadeRun {
   std::string motion = "sine";
-  controllers::MotionSettings settings;
+  controllers::MotionSettings settings{};
   double duration_s = 2.0;
   bool sensors = true;  ///< scale, torque, force, power
   bool quantised = true;

@@ -1,0 +1,129 @@
+#include "tools/identify/closed_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/made_case.h"
+#include "tests/support/random_axis.h"
+
+namespace feedtwin::tools {
+namespace {
+
+constexpr lanes::Wanted everything{true, true, true, true, true};
+
+double rms_of_difference(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+double rms(std::span<const double> a) {
+  return rms_of_difference(a, std::vector<double>(a.size()));
+}
+
+// Another instruction set, another lane, the server's own FeedAxis: one answer.
+TEST(ClosedLoop, EveryKernelAgreesWithTheServersAxis) {
+  std::mt19937_64 random(21);
+  const auto recording = tests::make_recording(
+      plant::source_axis(), {.settings = {.amplitude_m = 0.01, .speed_m_per_s = 0.05}, .duration_s = 1.0});
+  for (const bool with_controller : {false, true}) {
+    const ClosedLoopRun run(recording, plant::source_axis(),
+                            with_controller ? std::optional(controllers::CascadeGains{}) : std::nullopt);
+    std::vector<plant::AxisParameters> axes;
+    for (int i = 0; i < 16; ++i) axes.push_back(tests::axis_near_source(random, 1.3));
+    for (const auto& kernel : lanes::usable_kernels()) {
+      for (std::size_t first = 0; first + kernel.width <= axes.size(); first += kernel.width) {
+        std::vector<lanes::Candidate> candidates;
+        for (std::size_t i = 0; i < kernel.width; ++i) {
+          const auto& m = axes[first + i].motor;
+          candidates.push_back({plant::make_axis_model(axes[first + i]), m.electrical_idle_W,
+                                m.electrical_linear_Ws_per_m.pos, m.electrical_linear_Ws_per_m.neg,
+                                m.electrical_quadratic_Ws2_per_m2.pos, m.electrical_quadratic_Ws2_per_m2.neg, 2e-8, 0.0});
+        }
+        const std::size_t n = recording.size();
+        std::vector<double> torque(n * kernel.width), position(torque), sensor(torque), force(torque), power(torque);
+        kernel.run(run.view(), candidates.data(),
+                   {kernel.width, torque.data(), position.data(), sensor.data(), force.data(), power.data()});
+        for (std::size_t lane = 0; lane < kernel.width; ++lane) {
+          plant::FeedAxis axis(axes[first + lane]);
+          const auto alone = simulate_closed_loop(run, axis, 2e-8);
+          for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t at = i * kernel.width + lane;
+            SCOPED_TRACE(testing::Message() << kernel.instructions << " lane " << lane << " row " << i);
+            ASSERT_NEAR(torque[at], alone.torque_Nm[i], 1e-9);
+            ASSERT_NEAR(position[at], alone.position_m[i], 1e-9 * 0.01);
+            ASSERT_NEAR(sensor[at], alone.torque_sensor_Nm[i], 1e-9);
+            ASSERT_NEAR(force[at], alone.force_sensor_N[i], 1e-9 * 100.0);
+            ASSERT_NEAR(power[at], alone.power_W[i], 1e-9 * 100.0);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ClosedLoop, TheRightAxisGivesTheRecordedCommandBack) {
+  for (const bool with_controller : {false, true}) {
+    const auto recording = tests::make_recording(
+        plant::source_axis(),
+        {.settings = {.amplitude_m = 0.01, .speed_m_per_s = 0.05}, .duration_s = 1.0, .quantised = false});
+    const ClosedLoopRun run(recording, plant::source_axis(),
+                            with_controller ? std::optional(controllers::CascadeGains{}) : std::nullopt);
+    const CandidateAxis right{plant::source_axis()};
+    CandidateAxis wrong = right;
+    wrong.parameters.ball_screw.coulomb_N.pos += 10.0;
+    wrong.parameters.ball_screw.static_N.pos += 10.0;
+    const auto simulated = simulate_closed_loop(run, std::vector{right, wrong}, everything);
+    const auto command = recording.at(channel::torque_cmd_Nm);
+    // the recording was made at a tenth of a count, the simulation runs at one
+    EXPECT_LT(rms_of_difference(simulated[0].torque_Nm, command), 0.005 * rms(command)) << with_controller;
+    EXPECT_LT(rms_of_difference(simulated[0].force_sensor_N, recording.at(channel::force_sensor_N)),
+              0.02 * rms(recording.at(channel::force_sensor_N)));
+    EXPECT_LT(rms_of_difference(simulated[0].torque_sensor_Nm, recording.at(channel::torque_sensor_Nm)),
+              0.01 * rms(recording.at(channel::torque_sensor_Nm)));
+    // 10 N at the table for half of the time is 5.6 mN m rms at the motor
+    const double seen = rms_of_difference(simulated[1].torque_Nm, command);
+    EXPECT_GT(seen, 0.004) << with_controller;
+    EXPECT_LT(seen, 0.012) << with_controller;
+  }
+}
+
+TEST(ClosedLoop, AnyNumberOfThreadsGivesTheSame) {
+  std::mt19937_64 random(22);
+  const auto recording = tests::make_recording(plant::source_axis(), {.duration_s = 0.3});
+  const ClosedLoopRun run(recording, plant::source_axis(), std::nullopt);
+  std::vector<CandidateAxis> candidates;
+  for (int i = 0; i < 19; ++i) candidates.push_back({tests::axis_near_source(random, 1.2)});
+  const auto one = simulate_closed_loop(run, candidates, everything, 1),
+             three = simulate_closed_loop(run, candidates, everything, 3);
+  ASSERT_EQ(one.size(), candidates.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].torque_Nm, three[i].torque_Nm) << i;
+    EXPECT_EQ(one[i].power_W, three[i].power_W) << i;
+  }
+}
+
+TEST(MeteredPower, IsReadAsThePlantsMeterShowsIt) {
+  const auto recording = tests::make_recording(plant::source_axis(), {.duration_s = 1.0});
+  const auto shown = recording.at(channel::power_W);
+  const auto meter = metered_rows(shown);
+  EXPECT_EQ(meter.window, 100U);
+  ASSERT_GE(meter.rows.size(), 8U);
+  const ClosedLoopRun run(recording, plant::source_axis(), std::nullopt);
+  const CandidateAxis right{plant::source_axis()};
+  const auto simulated = simulate_closed_loop(run, std::span(&right, 1), everything);
+  const auto metered = as_metered(simulated[0].power_W, meter);
+  EXPECT_LT(rms_of_difference(metered, shown), 0.01 * rms(shown));
+}
+
+TEST(MeteredPower, EveryRowCountsWhereThePowerIsNotHeld) {
+  std::vector<double> power{1, 2, 3, 2, 1, 2, 3};
+  const auto meter = metered_rows(power);
+  EXPECT_EQ(meter.window, 1U);
+  EXPECT_EQ(as_metered(power, meter), power);
+}
+
+}  // namespace
+}  // namespace feedtwin::tools

@@ -1,0 +1,140 @@
+#include "tools/identify/closed_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plant/axis_model.h"
+
+namespace feedtwin::tools {
+namespace {
+
+/// Position with its derivatives, as an interpolator would have them: from the parabola through a row and its neighbours.
+std::vector<controllers::Reference> with_derivatives(std::span<const double> position_m, double tick_s) {
+  std::vector<controllers::Reference> all(position_m.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t middle = std::clamp<std::size_t>(i, 1, all.size() - 2);
+    const double before = position_m[middle - 1], now = position_m[middle], after = position_m[middle + 1];
+    const double acceleration = (after - 2.0 * now + before) / (tick_s * tick_s);
+    const double off_s = (static_cast<double>(i) - static_cast<double>(middle)) * tick_s;
+    all[i] = {position_m[i], (after - before) / (2.0 * tick_s) + acceleration * off_s, acceleration};
+  }
+  return all;
+}
+
+/// Speed at the first row; 0 where the first step is within the encoder's rounding.
+double start_velocity(std::span<const double> position_m, const plant::AxisParameters& nominal, double tick_s) {
+  const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
+  return std::abs(position_m[1] - position_m[0]) > 1.5 * count_m ? (position_m[2] - position_m[0]) / (2.0 * tick_s) : 0.0;
+}
+
+plant::AxisParameters without_stops(plant::AxisParameters parameters, std::span<const double> position_m) {
+  const auto [low, high] = std::ranges::minmax(position_m);
+  parameters.axis.stroke_centre_m = 0.5 * (low + high);
+  parameters.axis.stroke_m = std::max(parameters.axis.stroke_m, 2.0 * (high - low));
+  return parameters;
+}
+
+}  // namespace
+
+ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParameters& nominal,
+                             const std::optional<controllers::CascadeGains>& controller, const StandInSettings& stand_in)
+    : recording_(&recording) {
+  if (controller) reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
+  const auto position_m = recording.at(channel::position_m);
+  view_ = {.samples = recording.size(),
+           .tick_s = recording.sample_s,
+           .torque_Nm = recording.at(channel::torque_cmd_Nm).data(),
+           .position_m = position_m.data(),
+           .reference = nullptr,
+           .gains = controller.value_or(controllers::CascadeGains{}),
+           .stand_in = stand_in,
+           .stand_in_mass_kg = plant::make_axis_model(nominal).mass_kg,
+           .torque_limit_Nm = nominal.axis.torque_limit_Nm,
+           .start_velocity_m_per_s = start_velocity(position_m, nominal, recording.sample_s)};
+}
+
+lanes::RecordView ClosedLoopRun::view() const noexcept {
+  lanes::RecordView view = view_;
+  view.reference = reference_.empty() ? nullptr : reference_.data();
+  return view;
+}
+
+Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m) {
+  const auto view = run.view();
+  const double transmission = axis.model().transmission_rad_per_m;
+  axis.place(view.position_m[0], view.start_velocity_m_per_s);
+  StandIn<double> stand_in(view.stand_in, view.stand_in_mass_kg, view.tick_s);
+  controllers::CascadeLaw<double> cascade(view.gains);
+  cascade.reset(view.position_m[0] - position_offset_m);
+  Simulated out;
+  for (auto* channel : {&out.torque_Nm, &out.position_m, &out.torque_sensor_Nm, &out.force_sensor_N, &out.power_W}) {
+    channel->resize(view.samples);
+  }
+  for (std::size_t i = 0; i < view.samples; ++i) {
+    const double shown_m = axis.signals().position_m - position_offset_m;
+    out.position_m[i] = shown_m;
+    out.torque_Nm[i] = view.reference != nullptr
+                           ? cascade.torque_Nm(view.reference[i], shown_m, view.tick_s)
+                           : view.torque_Nm[i] + stand_in.correction_N(view.position_m[i] - shown_m) / transmission;
+    const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i]};
+    const auto forces = axis.force_sensors(command);
+    out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;
+    out.force_sensor_N[i] = forces.force_sensor_N;
+    out.power_W[i] = axis.step(command, view.tick_s).power_W;
+  }
+  return out;
+}
+
+std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run, std::span<const CandidateAxis> candidates,
+                                            const lanes::Wanted& wanted, unsigned threads) {
+  std::vector<lanes::Candidate> models;
+  models.reserve(candidates.size());
+  const auto position_m = run.recording().at(channel::position_m);
+  for (const auto& [parameters, position_offset_m, force_offset_N] : candidates) {
+    const auto& motor = parameters.motor;
+    models.push_back({plant::make_axis_model(without_stops(parameters, position_m)), motor.electrical_idle_W,
+                      motor.electrical_linear_Ws_per_m.pos, motor.electrical_linear_Ws_per_m.neg,
+                      motor.electrical_quadratic_Ws2_per_m2.pos, motor.electrical_quadratic_Ws2_per_m2.neg,
+                      position_offset_m, force_offset_N});
+  }
+  return lanes::simulate_candidates(run.view(), models, wanted, threads);
+}
+
+MeteredPower metered_rows(std::span<const double> power_W) {
+  MeteredPower meter;
+  for (std::size_t i = 1; i < power_W.size(); ++i) {
+    if (power_W[i] != power_W[i - 1]) meter.rows.push_back(i);
+  }
+  std::vector<std::size_t> spacing;
+  for (std::size_t i = 1; i < meter.rows.size(); ++i) spacing.push_back(meter.rows[i] - meter.rows[i - 1]);
+  if (!spacing.empty()) {
+    const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
+    std::nth_element(spacing.begin(), middle, spacing.end());
+    meter.window = *middle;
+  }
+  if (meter.window < 5) {  // not held: every row is a reading of its own
+    meter.window = 1;
+    meter.rows.resize(power_W.size());
+    for (std::size_t i = 0; i < power_W.size(); ++i) meter.rows[i] = i;
+  }
+  std::erase_if(meter.rows, [&meter](std::size_t row) { return row + 1 < meter.window; });
+  return meter;
+}
+
+std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {
+  std::vector<double> shown(power_W.size());
+  double now_W = 0.0;
+  auto next = meter.rows.begin();
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (next != meter.rows.end() && *next == i) {
+      double sum = 0.0;
+      for (std::size_t j = i + 1 - meter.window; j <= i; ++j) sum += power_W[j];
+      now_W = sum / static_cast<double>(meter.window);
+      ++next;
+    }
+    shown[i] = now_W;
+  }
+  return shown;
+}
+
+}  // namespace feedtwin::tools

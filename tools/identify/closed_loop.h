@@ -1,0 +1,63 @@
+#pragma once
+// Forward simulation of a recorded run in closed loop: the case's controller, or a stand-in, commands the plant that the
+// server runs; the torque command is the output that tells, because position in closed loop barely moves.
+//
+// Conventions of a recording's row k, at t = k T: positions, torque and force sensor are of that instant, the sensors with
+// command k acting; command k is held until row k + 1; the power meter is read at the end of that tick.
+
+#include <string_view>
+#include <vector>
+
+#include "controllers/reference.h"
+#include "plant/feed_axis.h"
+#include "tools/identify/lanes/dispatch.h"
+#include "tools/recording/case.h"
+
+namespace feedtwin::tools {
+
+/// A recording made ready for closed-loop simulation. Refers to the recording, which must outlive it.
+class ClosedLoopRun {
+ public:
+  ClosedLoopRun(const Recording& recording, const plant::AxisParameters& nominal,
+                const std::optional<controllers::CascadeGains>& controller, const StandInSettings& stand_in = {});
+
+  [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
+  /// For the kernels; valid as long as this object stays where it is.
+  [[nodiscard]] lanes::RecordView view() const noexcept;
+  [[nodiscard]] bool has_controller() const noexcept { return !reference_.empty(); }
+
+ private:
+  const Recording* recording_;
+  std::vector<controllers::Reference> reference_;
+  lanes::RecordView view_;
+};
+
+/// Channels as simulated, each as long as the run; `torque_Nm` is what the controller asks for.
+using Simulated = lanes::CandidateResult;
+
+/// Any axis, with whatever effects it has, one at a time. The axis is placed at the run's start first.
+[[nodiscard]] Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis,
+                                             double position_offset_m = 0.0);
+
+/// Many parameter sets of the paper's model at once (lanes/dispatch.h).
+struct CandidateAxis {
+  plant::AxisParameters parameters;
+  double position_offset_m = 0.0;  ///< simulated less shown position; an encoder that rounds down has half a count
+  double force_offset_N = 0.0;     ///< constant, against positive motion
+};
+[[nodiscard]] std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run,
+                                                          std::span<const CandidateAxis> candidates,
+                                                          const lanes::Wanted& wanted, unsigned threads = 0);
+
+/// The rows at which a metered power (held for many rows) is new, and the number of ticks that it is the mean of; window 1
+/// and every row where the power is not held.
+struct MeteredPower {
+  std::vector<std::size_t> rows;
+  std::size_t window = 1;
+};
+[[nodiscard]] MeteredPower metered_rows(std::span<const double> power_W);
+
+/// A simulated power as the recording's meter would show it, row by row.
+[[nodiscard]] std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter);
+
+}  // namespace feedtwin::tools
