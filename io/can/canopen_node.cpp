@@ -97,7 +97,8 @@ void CanopenNode::network_command(const Frame& frame, std::int64_t now_ns, Frame
     case start_node:
       if (nmt_ != NmtState::operational) {
         for (auto& pdo : rpdo_) pdo.pending = false;
-        for (auto& pdo : tpdo_) pdo.sent = false, pdo.syncs = 0;
+        // the nodes' slow PDOs fall on different SYNCs, so that no cycle has to carry them all
+        for (auto& pdo : tpdo_) pdo.sent = false, pdo.syncs = drive_.node_id % std::max(pdo.type, 1);
         syncs_without_command_ = 0;
         supervised_since_ns_ = now_ns;
       }

@@ -50,6 +50,16 @@ class FrameQueue {
     ++size_;
     return true;
   }
+  /// Put the frame in the place of one with the same identifier. @return false if there is none
+  bool replace(const Frame& frame) noexcept FEEDTWIN_REALTIME {
+    for (std::size_t i = 0; i < size_; ++i) {
+      Frame& there = frames_[(first_ + i) % capacity];
+      if (there.id != frame.id) continue;
+      there = frame;
+      return true;
+    }
+    return false;
+  }
   [[nodiscard]] bool empty() const noexcept FEEDTWIN_REALTIME { return size_ == 0; }
   [[nodiscard]] std::size_t size() const noexcept FEEDTWIN_REALTIME { return size_; }
   [[nodiscard]] const Frame& front() const noexcept FEEDTWIN_REALTIME { return frames_[first_]; }

@@ -44,8 +44,8 @@ constexpr ObjectEntry highest_sub(int index, int highest) {
   return limited(plain(index, 0, "Highest sub-index supported", u8, constant, highest), highest, highest);
 }
 
-constexpr std::uint32_t mapped(std::uint32_t index, std::uint32_t bits) {
-  return index << 16 | bits;
+constexpr std::uint32_t mapped(std::uint32_t index_and_sub, std::uint32_t bits) {
+  return index_and_sub << 8 | bits;
 }
 
 struct Table {

@@ -36,7 +36,8 @@ bool due(std::int64_t now_ns, std::int64_t& next_ns, int period_ms) noexcept FEE
 }  // namespace
 
 void OdriveNode::start(std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
-  next_heartbeat_ns_ = next_encoder_ns_ = now_ns;
+  next_encoder_ns_ = now_ns;
+  next_heartbeat_ns_ = now_ns + std::int64_t{settings_.heartbeat_ms} * 1'000'000;
   answer(heartbeat, out);
 }
 
