@@ -90,7 +90,14 @@ void PlantRun::run_in_real_time(std::atomic<bool>& stop) {
   real_time.join();
   settings_.insert(settings_.end(), thread_settings.begin(), thread_settings.end());
   for (const auto& port : config_.ports) port->close();
+  note_port_events();
   log_->finish();
+}
+
+void PlantRun::note_port_events() {
+  for (const auto& port : config_.ports) {
+    for (const auto& event : port->take_events()) log_->note(event.time_s, fmt::format("{}: {}", port->name(), event.text));
+  }
 }
 
 void PlantRun::show_progress(std::atomic<bool>& stop, const std::atomic<bool>& ended) {
@@ -99,6 +106,7 @@ void PlantRun::show_progress(std::atomic<bool>& stop, const std::atomic<bool>& e
   auto shown = std::chrono::steady_clock::now();
   while (!ended.load(std::memory_order_acquire)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    note_port_events();
     const auto now = std::chrono::steady_clock::now();
     if (now - shown < std::chrono::seconds(terminal ? 1 : 10)) continue;
     shown = now;

@@ -33,6 +33,7 @@ class PlantRun {
   [[nodiscard]] io::Port& commanding_port();
   void make_log();
   void make_loop(rt::TickClock& clock);
+  void note_port_events();
   void show_progress(std::atomic<bool>& stop, const std::atomic<bool>& ended);
 
   ServerConfig config_;

@@ -48,6 +48,9 @@ class RunLog {
   /// Take what is there now: for a loop that is run and drained by one thread.
   void drain(rt::PlantLoop& loop);
 
+  /// Write down something that happened outside the tick. Any thread.
+  void note(double time_s, const std::string& text);
+
   [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
   [[nodiscard]] std::uint64_t unwritten_rows() const noexcept;
   [[nodiscard]] std::vector<std::string> paths() const;

@@ -141,6 +141,16 @@ TEST_F(ServerConfigFile, WhatIsNotTomlOrNotThere) {
   EXPECT_THROW((void)read_server_config({.path = "", .controller = "pigeon"}), InputError);
 }
 
+TEST_F(ServerConfigFile, EverySampleConfigurationIsAccepted) {
+  int samples = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(FEEDTWIN_SOURCE_DIR) / "systemd")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++samples;
+    EXPECT_NO_THROW((void)read_server_config({.path = entry.path().string()})) << entry.path();
+  }
+  EXPECT_GE(samples, 1);
+}
+
 TEST_F(ServerConfigFile, WithoutAFileItIsTheSourcesAxis) {
   const auto config = read_server_config({.path = "", .with_ports = false});
   ASSERT_EQ(config.axes.size(), 1U);
