@@ -1,5 +1,5 @@
 #pragma once
-// CLOCK_MONOTONIC in ns, the clock of every arrival and reply.
+// CLOCK_MONOTONIC in ns: the one clock of ticks, arrivals and replies.
 
 #include <cstdint>
 #include <ctime>
@@ -8,6 +8,8 @@
 
 namespace feedtwin::io {
 
+inline constexpr std::int64_t ns_per_s = 1'000'000'000;
+
 [[nodiscard]] inline std::int64_t clock_ns(clockid_t clock) noexcept FEEDTWIN_REALTIME {
   timespec now{};
   {
@@ -15,7 +17,7 @@ namespace feedtwin::io {
         ::clock_gettime(clock, &now);
     FEEDTWIN_ADMIT_END
   }
-  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+  return static_cast<std::int64_t>(now.tv_sec) * ns_per_s + now.tv_nsec;
 }
 [[nodiscard]] inline std::int64_t monotonic_ns() noexcept FEEDTWIN_REALTIME {
   return clock_ns(CLOCK_MONOTONIC);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "rt/monotonic.h"
+#include "io/monotonic.h"
 
 namespace feedtwin::rt {
 
@@ -43,7 +43,7 @@ void PlantLoop::run_to(std::uint64_t ticks, const std::atomic<bool>& stop) noexc
 }
 
 void PlantLoop::tick(const TickStart& start) noexcept {
-  const std::int64_t begin_ns = monotonic_ns();
+  const std::int64_t begin_ns = io::monotonic_ns();
   const std::int64_t late_ns = start.woken_ns - start.planned_ns;
   lateness_us_ = static_cast<double>(late_ns) * 1e-3;
   if (start.slept) stats_->wakeup.record(late_ns);
@@ -60,7 +60,7 @@ void PlantLoop::tick(const TickStart& start) noexcept {
   for (io::Port* port : listening_) port->send(report, reports_);
   if (!records_.push(rows_)) stats_->dropped_records += rows_.size();
 
-  const std::int64_t work_ns = monotonic_ns() - begin_ns;
+  const std::int64_t work_ns = io::monotonic_ns() - begin_ns;
   if (settings_.record_work) last_work_us_ = static_cast<double>(work_ns) * 1e-3;
   stats_->work.record(work_ns);
   ++stats_->ticks;

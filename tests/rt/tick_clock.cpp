@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "rt/monotonic.h"
+#include "io/monotonic.h"
 
 namespace feedtwin::rt {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t period_ns = 2'000'000;
 
 void be_late_by(std::int64_t late_ns, std::int64_t planned_ns) {
-  while (monotonic_ns() < planned_ns + late_ns) std::this_thread::yield();
+  while (io::monotonic_ns() < planned_ns + late_ns) std::this_thread::yield();
 }
 
 /// Nothing here depends on how punctual the host is: only on the grid that the clock claims.
