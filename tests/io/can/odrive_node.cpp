@@ -107,6 +107,7 @@ TEST_F(Odrive, WatchdogEmergencyStopAndClear) {
   EXPECT_EQ(node.errors(), 0U);
   tick();
   EXPECT_EQ(node.errors(), 0x800U);
+  tick();
   EXPECT_EQ(request.torque_Nm, 0.0);
   EXPECT_FALSE(request.enable);
   say(message(0x07, 8));  // not with an error
