@@ -2,7 +2,8 @@
 // The law of the cascade, for one axis (double) or several at a time (a lane each).
 //
 //   v_wanted = K_v (x_ref - x) + k_vff v_ref,   v = (x_k - x_k-n) / (n T)
-//   F = K_p (v_wanted - v) + K_i int(v_wanted - v) dt + M_ff a_ref,   limited, with anti-windup
+//   F = K_p (v_wanted - v) + K_i int(v_wanted - v) dt + M_ff a_ref + B_ff v_ref + F_ff sgn v_ref,   limited, with
+//   anti-windup
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,8 @@ struct CascadeGains {
   double velocity_integral_N_per_m = 4.0e5;   ///< integral gain of the velocity loop
   double velocity_feedforward = 1.0;          ///< share of the reference velocity fed forward
   double acceleration_feedforward_kg = 90.9;  ///< moving mass fed forward
+  double friction_feedforward_N = 0.0;        ///< in the direction of the reference velocity (Turbo PMAC Ixx68)
+  double viscous_feedforward_Ns_per_m = 0.0;  ///< by the reference velocity
   double current_loop_time_constant_s = 0.0;  ///< first-order current loop; 0: ideal
   double torque_limit_Nm = 1.9;
   double lead_m = 0.005;
@@ -49,8 +52,7 @@ class CascadeLaw {
                                  gains_.velocity_feedforward * reference.velocity_m_per_s;
     const Real velocity_error = wanted_velocity - velocity;
     const double limit_N = gains_.torque_limit_Nm / torque_per_force_m_;
-    const Real proportional_N =
-        gains_.velocity_Ns_per_m * velocity_error + gains_.acceleration_feedforward_kg * reference.acceleration_m_per_s2;
+    const Real proportional_N = gains_.velocity_Ns_per_m * velocity_error + feedforward_N(reference);
     // anti-windup: the integral never asks for more than the limit leaves
     const Real zero{};
     const Real wanted_integral_N = integral_N_ + gains_.velocity_integral_N_per_m * velocity_error * tick_s;
@@ -66,6 +68,12 @@ class CascadeLaw {
   }
 
  private:
+  [[nodiscard]] double feedforward_N(const Reference& reference) const noexcept {
+    const double v = reference.velocity_m_per_s;
+    const double friction_N = v == 0.0 ? 0.0 : std::copysign(gains_.friction_feedforward_N, v);
+    return gains_.acceleration_feedforward_kg * reference.acceleration_m_per_s2 + gains_.viscous_feedforward_Ns_per_m * v +
+           friction_N;
+  }
   static constexpr int longest_window = 4;
   static Real limited(Real value, Real low, Real high) noexcept {
     return plant::smaller<Real>(plant::larger<Real>(value, low), high);

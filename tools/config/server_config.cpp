@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numbers>
 
 #include "plant/parameter_table.h"
 #include "tools/config/axis_file.h"
@@ -51,6 +52,19 @@ void read_server(TomlFile& file, ServerConfig& config) {
   config.loop.record_forces = file.boolean("log.forces", true);
 }
 
+double mean(const plant::Directional& value) {
+  return 0.5 * (value.pos + value.neg);
+}
+
+double coulomb_N(const plant::AxisParameters& axis) {
+  return mean(axis.motor.coulomb_N) + mean(axis.ball_screw.coulomb_N) + mean(axis.guide.coulomb_N);
+}
+
+double viscous_Ns_per_m(const plant::AxisParameters& axis) {
+  const double k = 2.0 * std::numbers::pi / axis.axis.lead_m;
+  return mean(axis.motor.damping_Nms) * k * k + mean(axis.ball_screw.viscous_Ns_per_m) + mean(axis.guide.viscous_Ns_per_m);
+}
+
 /// The loopback controller's presets follow the axis: its mass, lead, torque limit and stroke.
 LoopbackSettings loopback_of(TomlFile& file, const std::string& table, const plant::AxisParameters& axis) {
   const auto at = [&table](const char* key) { return table + "." + key; };
@@ -74,11 +88,13 @@ LoopbackSettings loopback_of(TomlFile& file, const std::string& table, const pla
   auto& gains = settings.gains;
   gains.lead_m = axis.axis.lead_m;
   gains.torque_limit_Nm = axis.axis.torque_limit_Nm;
-  gains.position_per_s = file.number(at("position_per_s"), 0.0, 1e4, 60.0);
-  gains.velocity_Ns_per_m = file.number(at("velocity_Ns_per_m"), 0.0, 1e9, 130.0 * mass_kg);
-  gains.velocity_integral_N_per_m = file.number(at("velocity_integral_N_per_m"), 0.0, 1e12, 4400.0 * mass_kg);
+  gains.position_per_s = file.number(at("position_per_s"), 0.0, 1e4, 150.0);
+  gains.velocity_Ns_per_m = file.number(at("velocity_Ns_per_m"), 0.0, 1e9, 400.0 * mass_kg);
+  gains.velocity_integral_N_per_m = file.number(at("velocity_integral_N_per_m"), 0.0, 1e12, 4.0e4 * mass_kg);
   gains.velocity_feedforward = file.number(at("velocity_feedforward"), 0.0, 2.0, 1.0);
   gains.acceleration_feedforward_kg = file.number(at("acceleration_feedforward_kg"), 0.0, 1e5, mass_kg);
+  gains.friction_feedforward_N = file.number(at("friction_feedforward_N"), 0.0, 1e6, coulomb_N(axis));
+  gains.viscous_feedforward_Ns_per_m = file.number(at("viscous_feedforward_Ns_per_m"), 0.0, 1e7, viscous_Ns_per_m(axis));
   gains.current_loop_time_constant_s = file.number(at("current_loop_time_constant_s"), 0.0, 1.0, 0.0);
   return settings;
 }
