@@ -45,28 +45,11 @@ std::uint16_t analog_from_torque(std::uint16_t torque_register) noexcept {
 
 AxisRequest request_from(std::span<const std::uint16_t, holding_stride> registers, double rated_torque_Nm) noexcept {
   const int torque = std::clamp(int{signed_of(registers[holding::torque])}, -largest_torque, largest_torque);
-  const std::uint16_t control = registers[holding::control];
   AxisRequest request;
   request.torque_Nm = torque / full_torque * rated_torque_Nm;
-  request.enable = (control & control_bit::enable) != 0;
-  request.quick_stop = (control & control_bit::quick_stop) != 0;
-  request.fault_reset = (control & control_bit::fault_reset) != 0;
+  set_control(request, registers[holding::control]);
   request.watchdog_ns = registers[holding::watchdog] * std::int64_t{1'000'000};
   return request;
-}
-
-std::uint16_t state_code(DriveState state) noexcept {
-  switch (state) {
-    case DriveState::disabled:
-      return 0x0040;
-    case DriveState::enabled:
-      return 0x0027;
-    case DriveState::quick_stop:
-      return 0x0007;
-    case DriveState::fault:
-      break;
-  }
-  return 0x0008;
 }
 
 void encode(const TickReport& tick, const AxisReport& axis, double rated_torque_Nm,
@@ -81,9 +64,7 @@ void encode(const TickReport& tick, const AxisReport& axis, double rated_torque_
   registers[input::seq_begin] = registers[input::seq_end] = low(ticks);
   registers[input::counts_low] = low(offset_counts);
   registers[input::counts_high] = high(offset_counts);
-  registers[input::statusword] = static_cast<std::uint16_t>(
-      state_code(axis.state) | (axis.index_passed ? status_bit::index : 0) | (axis.at_low_stop ? status_bit::low_stop : 0) |
-      (axis.at_high_stop ? status_bit::high_stop : 0));
+  registers[input::statusword] = statusword(axis);
   registers[input::velocity] = std::bit_cast<std::uint16_t>(limited<std::int16_t>(axis.velocity_m_per_s * 1e4));
   registers[input::torque] = std::bit_cast<std::uint16_t>(torque);
   registers[input::input_age] = axis.input_age_ns < 0

@@ -44,6 +44,7 @@
 #include <cstdint>
 #include <span>
 
+#include "io/drive_words.h"
 #include "io/port.h"
 #include "plant/realtime.h"
 
@@ -55,9 +56,6 @@ inline constexpr int mirror_begin = 2000;  ///< holding address of the copy of i
 
 namespace holding {
 enum : std::size_t { torque, control, sequence, watchdog, analog_torque };
-}
-namespace control_bit {
-inline constexpr std::uint16_t enable = 1U << 0, quick_stop = 1U << 1, fault_reset = 1U << 7;
 }
 namespace input {
 enum : std::size_t {
@@ -81,11 +79,6 @@ enum : std::size_t {
   analog_torque = 21,
 };
 }
-namespace status_bit {
-inline constexpr std::uint16_t in_command = 1U << 9, clipped = 1U << 11, index = 1U << 12, low_stop = 1U << 14,
-                               high_stop = 1U << 15;
-}
-
 inline constexpr int largest_torque = 10000;  ///< rated torque, in 0.01 %
 
 /// An axis's request from its first holding registers. `sequence` and `arrival_ns` are left to the caller, who knows them.
@@ -95,9 +88,6 @@ inline constexpr int largest_torque = 10000;  ///< rated torque, in 0.01 %
 /// Analog scale to holding register 0, to the nearest.
 [[nodiscard]] std::uint16_t torque_from_analog(std::uint16_t analog_register) noexcept;
 [[nodiscard]] std::uint16_t analog_from_torque(std::uint16_t torque_register) noexcept;
-
-/// The CiA 402 code of a state.
-[[nodiscard]] std::uint16_t state_code(DriveState state) noexcept FEEDTWIN_REALTIME;
 
 /// One axis's input registers, all but the statusword's bits 9 and 11. Wait-free.
 void encode(const TickReport& tick, const AxisReport& axis, double rated_torque_Nm,

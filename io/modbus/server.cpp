@@ -15,7 +15,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <ctime>
+
+#include "io/monotonic.h"
 
 namespace feedtwin::io::modbus {
 namespace {
@@ -24,12 +25,6 @@ constexpr int events_at_once = 32, accepted_at_once = 16, backlog = 1024;
 constexpr int tend_ms = 100;                           // how often slow clients are looked for
 constexpr std::size_t buffer_bytes = 2048;             // some requests in flight
 constexpr int silence_s = 5, probe_s = 2, probes = 3;  // a vanished peer is found after 11 s
-
-std::int64_t monotonic_ns() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
-}
 
 void set(int socket, int level, int option, int value) noexcept {
   setsockopt(socket, level, option, &value, sizeof value);  // a refusal only costs promptness
