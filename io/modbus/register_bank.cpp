@@ -17,7 +17,15 @@ bool covers(RegisterRange range, std::size_t address) noexcept {
 }  // namespace
 
 RegisterBank::RegisterBank(Exchange& exchange)
-    : exchange_(exchange), registers_(mirror_begin + static_cast<std::size_t>(exchange.axes()) * input_stride) {}
+    : exchange_(exchange), registers_(mirror_begin + static_cast<std::size_t>(exchange.axes()) * input_stride) {
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(exchange.axes()); ++axis) {
+    // before the first tick: at zero, and not at the -2^31 that registers of zero would mean
+    AxisReport nothing_yet;
+    nothing_yet.input_age_ns = -1;
+    encode({}, nothing_yet, exchange.rated_torque_Nm(axis),
+           std::span<std::uint16_t, input_stride>(registers_.data() + mirror_begin + axis * input_stride, input_stride));
+  }
+}
 
 Extent RegisterBank::extent() const noexcept {
   const auto axes = static_cast<std::size_t>(exchange_.axes());

@@ -163,6 +163,7 @@ TEST(ModbusPort, SequenceGoesOnBeyondSixteenBitsAndAFreshStartIsAFarJump) {
 
 TEST(ModbusPort, TheReadBlockIsAlwaysOfOneTick) {
   Ticking loop(4);
+  ASSERT_TRUE(loop.soon([&] { return loop.ticks() > 0; }));
   Client client(loop.tcp());
   for (int i = 0; i < 3000; ++i) {
     const auto r = registers(client.ask(read(4, 0, 125)));
@@ -249,6 +250,13 @@ TEST(ModbusPort, TwoWhoFightLeaveOneInCommandAndEveryTorqueFromHim) {
   a.join();
   b.join();
   EXPECT_EQ(loop.counter("command_changes"), 1U);
+}
+
+TEST(ModbusPort, BeforeTheFirstTickThePositionIsZero) {
+  ModbusPort port(quick_settings(), {});
+  port.open();
+  Client client(port.tcp_port());
+  EXPECT_EQ(registers(client.ask(read(4, 0, 8))), (std::vector<std::uint16_t>{0, 0, 0x8000, 0, 0x40, 0, 0, 65535}));
 }
 
 TEST(ModbusPort, APortThatIsOnlyWatchedRefusesWrites) {
