@@ -19,18 +19,19 @@ namespace {
 using namespace test;
 using std::chrono::milliseconds;
 
-ServerSettings quick_settings() {
+/// Times so long that no stall of the host makes a difference, where they are not what is tested.
+ServerSettings free_port() {
   ServerSettings settings;
   settings.port = 0;
-  settings.request_time_ns = 150'000'000;
-  settings.command_idle_ns = 300'000'000;
+  settings.request_time_ns = 60'000'000'000;
+  settings.command_idle_ns = 60'000'000'000;
   return settings;
 }
 
 /// The port with a thread in the place of the loop: an axis whose counts rise by one a tick.
 class Ticking {
  public:
-  explicit Ticking(int axes = 1, ServerSettings settings = quick_settings()) : port_(settings, context(axes)) {
+  explicit Ticking(int axes = 1, ServerSettings settings = free_port()) : port_(settings, context(axes)) {
     port_.open();
     requests_.resize(static_cast<std::size_t>(axes));
     thread_ = std::jthread([this](const std::stop_token& stop) {
@@ -212,7 +213,7 @@ TEST(ModbusPort, OneIsInCommandTheOthersReadAndAreRefused) {
   EXPECT_EQ(exception_of(second.ask(write_and_read(0, {200}, 0, 1))), 6);
   EXPECT_EQ(registers(second.ask(read(3, 0, 1))), std::vector<std::uint16_t>{100});
   EXPECT_EQ(loop.counter("refused_writes"), 3U);
-  EXPECT_EQ(loop.torque(), 100);
+  EXPECT_TRUE(loop.soon([&] { return loop.torque() == 100; }));
 }
 
 TEST(ModbusPort, WhoGoesReleasesTheCommandAndTheNextStartsFromZero) {
@@ -226,12 +227,14 @@ TEST(ModbusPort, WhoGoesReleasesTheCommandAndTheNextStartsFromZero) {
 }
 
 TEST(ModbusPort, ASilentCommanderLosesCommandToTheOneWhoWrites) {
-  Ticking loop;
+  ServerSettings settings = free_port();
+  settings.command_idle_ns = 200'000'000;
+  Ticking loop(1, settings);
   Client first(loop.tcp()), second(loop.tcp());
   first.ask(write_one(0, 100));
-  EXPECT_EQ(exception_of(second.ask(write_one(0, 200))), 6);
   ASSERT_TRUE(loop.soon([&] { return exception_of(second.ask(write_one(0, 200))) == 0; }));
-  EXPECT_EQ(exception_of(first.ask(write_one(0, 100))), 6);
+  EXPECT_TRUE(loop.soon([&] { return loop.torque() == 200; }));
+  EXPECT_EQ(loop.counter("command_changes"), 2U);
 }
 
 TEST(ModbusPort, TwoWhoFightLeaveOneInCommandAndEveryTorqueFromHim) {
@@ -253,14 +256,14 @@ TEST(ModbusPort, TwoWhoFightLeaveOneInCommandAndEveryTorqueFromHim) {
 }
 
 TEST(ModbusPort, BeforeTheFirstTickThePositionIsZero) {
-  ModbusPort port(quick_settings(), {});
+  ModbusPort port(free_port(), {});
   port.open();
   Client client(port.tcp_port());
   EXPECT_EQ(registers(client.ask(read(4, 0, 8))), (std::vector<std::uint16_t>{0, 0, 0x8000, 0, 0x40, 0, 0, 65535}));
 }
 
 TEST(ModbusPort, APortThatIsOnlyWatchedRefusesWrites) {
-  ModbusPort port(quick_settings(), {});
+  ModbusPort port(free_port(), {});
   port.open();
   Client client(port.tcp_port());
   EXPECT_EQ(exception_of(client.ask(write_one(0, 1))), 0) << "the loop has not begun";
@@ -301,18 +304,18 @@ TEST(ModbusPort, RandomBytesDoNoHarm) {
 }
 
 TEST(ModbusPort, SlowLorisIsClosedAndNobodyWaitsForIt) {
-  Ticking loop;
+  ServerSettings settings = free_port();
+  settings.request_time_ns = 150'000'000;
+  Ticking loop(1, settings);
   Client slow(loop.tcp()), good(loop.tcp());
   const Bytes request = read(3, 0, 1);
-  bool cut_off = false;
-  for (std::size_t i = 0; i + 1 < 200 && !cut_off; ++i) {
-    // one byte at a time of a request that would take many times the time allowed
-    cut_off = !slow.send({request[i % 5]}) || loop.counter("slow_requests") > 0;
+  // a byte at a time of a request that would take many times the time allowed
+  for (std::size_t i = 0; i < 5; ++i) {
+    slow.send({request[i]});
     EXPECT_EQ(registers(good.ask(read(4, 0, 4))).size(), 4U);
     std::this_thread::sleep_for(milliseconds(60));
-    if (i == 4) break;
   }
-  EXPECT_TRUE(cut_off || slow.closed_by_server());
+  EXPECT_TRUE(slow.closed_by_server());
   EXPECT_EQ(loop.counter("slow_requests"), 1U);
 }
 
@@ -332,7 +335,7 @@ TEST(ModbusPort, AClientThatNeverReadsIsClosedWhenTheSocketIsFull) {
 }
 
 TEST(ModbusPort, OneClientTooManyReplacesTheLongestSilentButNeverTheCommander) {
-  ServerSettings settings = quick_settings();
+  ServerSettings settings = free_port();
   settings.max_clients = 4;
   Ticking loop(1, settings);
   Client commander(loop.tcp());
@@ -372,7 +375,7 @@ TEST(ModbusPort, APortInUseIsSaidInOneLine) {
 }
 
 TEST(ModbusPort, ClosedTwiceAndOpenedAgainKeepsItsCounters) {
-  ModbusPort port(quick_settings(), {});
+  ModbusPort port(free_port(), {});
   port.open();
   {
     EXPECT_EQ(registers(Client(port.tcp_port()).ask(read(3, 0, 1))).size(), 1U);
