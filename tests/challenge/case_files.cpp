@@ -85,6 +85,7 @@ nlohmann::json key_of(const Case& c, std::uint64_t seed) {
   if (c.truth.coupling_N_per_m > 0.0) tolerated.push_back("screw_compliance");
   nlohmann::json alike = nlohmann::json::object();
   bool number_only = !c.hidden.empty();
+  bool alone = true;
   for (const Hidden* h : c.hidden) {
     if (c.kind == "outside") {
       key["outside"] = h->id;
@@ -95,8 +96,10 @@ nlohmann::json key_of(const Case& c, std::uint64_t seed) {
     if (h->id == "screw_compliance") numbers["stiffness_N_per_m"] = c.truth.coupling_N_per_m;
     if (!h->alike.empty()) alike[h->id] = h->alike;
     number_only = number_only && h->number_only;
+    alone = alone && identifiable(*h, c.channels);
   }
   key["alike"] = alike;
+  key["identifiable"] = alone;
   key["tolerated"] = tolerated;
   key["number_only"] = number_only && c.kind != "outside";
   return key;

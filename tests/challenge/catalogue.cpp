@@ -55,8 +55,8 @@ const std::vector<Hidden>& catalogue() {
        [](const Effects& e) { return numbers("amplitude_N", e.rev_ripple); },
        {"cogging"}},
       {"encoder_eccentricity",
-       none,
-       true,
+       scale,
+       false,
        false,
        1e-6,
        2e-5,
@@ -199,7 +199,7 @@ const std::vector<Hidden>& catalogue() {
        [](Effects& e, double s, Shape, const Reach&) { e.input_delay_s = s; },
        [](const Effects& e) { return Numbers{{"delay_s", e.input_delay_s}}; },
        {"current_loop_lag"}},
-      {"torque_saturation", none, false, false, 0.35, 0.75,
+      {"torque_saturation", none, false, false, 0.75, 0.93,
        [](Effects& e, double s, Shape, const Reach& reach) { e.saturation_Nm = s * reach.torque_Nm; },
        [](const Effects& e) { return Numbers{{"limit_Nm", e.saturation_Nm}}; }},
       {"quadratic_drag", none, true, false, 50.0, 8000.0,
@@ -230,7 +230,7 @@ const std::vector<Hidden>& catalogue() {
        },
        [](const Effects& e) { return Numbers{{"amplitude_N", e.process_N}, {"frequency_Hz", e.process_Hz}}; },
        {"floor_vibration"}},
-      {"hard_stop", none, false, false, 0.80, 0.95,
+      {"hard_stop", none, false, false, 0.96, 0.995,
        [](Effects& e, double s, Shape, const Reach& reach) {
          e.stop_m = s * reach.position_m;
          e.stop_N_per_m = 2e5;
@@ -366,6 +366,15 @@ const std::vector<Hidden>& outside() {
        [](const Effects&) { return Numbers{}; }},
   };
   return all;
+}
+
+bool identifiable(const Hidden& hidden, unsigned channels) {
+  // the same equations, or the same to within what any channel shows
+  for (const char* id : {"encoder_eccentricity", "cyclic_lead_error", "floor_vibration", "process_force", "torque_offset"})
+    if (hidden.id == id) return false;
+  if (hidden.id == "cogging") return (channels & torque_sensor) != 0;
+  if (hidden.id == "presliding_memory") return (channels & scale) != 0;
+  return (channels & hidden.needs) == hidden.needs;
 }
 
 const Hidden* find_hidden(const std::string& id) {

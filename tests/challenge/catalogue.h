@@ -36,6 +36,8 @@ struct Hidden {
 [[nodiscard]] const std::vector<Hidden>& catalogue();
 /// Structures that no catalogue names.
 [[nodiscard]] const std::vector<Hidden>& outside();
+/// True where these channels tell it from everything in `alike`; elsewhere a small set is the right answer.
+[[nodiscard]] bool identifiable(const Hidden& hidden, unsigned channels);
 /// nullptr where there is none of that id.
 [[nodiscard]] const Hidden* find_hidden(const std::string& id);
 

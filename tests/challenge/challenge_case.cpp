@@ -145,12 +145,15 @@ Case make_case(const Wish& wish) {
   const Leftover without = leftover(bare, c.truth.lead_m);
   c.residual_N = std::max(least_residual_N, without.rms_N);
   Reach reach{0.0, 0.0};
-  for (const Sample& s : bare.back()) reach.position_m = std::max(reach.position_m, s.position_m);
-  for (const auto& run : bare)
-    for (const Sample& s : run) reach.torque_Nm = std::max(reach.torque_Nm, std::abs(s.torque_cmd_Nm));
+  for (const auto& run : bare) {
+    for (const Sample& s : run) {
+      reach.position_m = std::max(reach.position_m, s.position_m);
+      reach.torque_Nm = std::max(reach.torque_Nm, std::abs(s.torque_cmd_Nm));
+    }
+  }
 
   std::vector<double> strengths;
-  const double target = wish.strength > 0.0 ? wish.strength : std::exp(uniform(random, std::log(0.3), std::log(12.0)));
+  const double target = wish.strength > 0.0 ? wish.strength : std::exp(uniform(random, std::log(0.4), std::log(12.0)));
   for (const Hidden* h : c.hidden) strengths.push_back(std::exp(uniform(random, std::log(h->low), std::log(h->high))));
   const auto set_all = [&] {
     c.effects = {};
@@ -166,13 +169,12 @@ Case make_case(const Wish& wish) {
   for (std::size_t i = 0; i < c.hidden.size(); ++i) {
     const Hidden& h = *c.hidden[i];
     if (!h.seen_in_torque) continue;
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < 4; ++round) {
       Effects alone;
       h.set(alone, strengths[i], Random(shape + i), reach);
-      const double rms_N = leftover(runs_of(c, plans, alone, c.truth, gains, wish.seed), c.truth.lead_m).rms_N;
-      const double now_N =
-          std::sqrt(std::max(1e-4 * without.rms_N * without.rms_N, rms_N * rms_N - without.rms_N * without.rms_N));
-      const double by = target * without.rms_N / now_N;
+      const double rms_N = leftover(runs_of(c, plans, alone, quick, gains, wish.seed), c.truth.lead_m).rms_N;
+      const double now_N = std::sqrt(std::max(1e-4, rms_N * rms_N - quick_without.rms_N * quick_without.rms_N));
+      const double by = target * c.residual_N / now_N;
       if (std::abs(std::log(by)) < 0.15) break;
       strengths[i] = std::clamp(strengths[i] * std::clamp(by, 0.05, 20.0), 0.2 * h.low, h.high);
     }
