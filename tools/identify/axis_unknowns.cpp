@@ -1,0 +1,90 @@
+#include "tools/identify/axis_unknowns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plant/parameter_table.h"
+#include "tools/identify/channel_residuals.h"
+
+namespace feedtwin::tools {
+namespace {
+
+bool electrical(std::string_view key) {
+  return key.starts_with("motor.ke");
+}
+
+/// The same number for the other direction of motion.
+std::string mirrored(std::string_view key) {
+  std::string other(key);
+  const auto pos = other.find("_pos_"), neg = other.find("_neg_");
+  if (pos != std::string::npos) other.replace(pos, 5, "_neg_");
+  if (neg != std::string::npos) other.replace(neg, 5, "_pos_");
+  return other;
+}
+
+/// What a change of a number is measured by: its size, or that of its counterpart, or what such numbers are on the source's
+/// axis.
+double scale_of(const plant::ParameterEntry& entry, plant::AxisParameters nominal) {
+  plant::AxisParameters source = plant::source_axis();
+  double scale = std::abs(entry.in(nominal));
+  if (const auto* other = plant::find_parameter(mirrored(entry.key))) scale = std::max(scale, std::abs(other->in(nominal)));
+  return scale > 0.0 ? scale : std::abs(entry.in(source));
+}
+
+void keep_breakaway(plant::LugreParameters& friction) {
+  friction.static_N.pos = std::max(friction.static_N.pos, friction.coulomb_N.pos);
+  friction.static_N.neg = std::max(friction.static_N.neg, friction.coulomb_N.neg);
+}
+
+}  // namespace
+
+std::vector<FitParameter> axis_unknowns(const plant::AxisParameters& nominal, const std::vector<Recording>& recordings,
+                                        bool with_force_offset) {
+  plant::AxisParameters axis = nominal;
+  const bool power = std::ranges::any_of(recordings, [](const Recording& r) { return r.has(channel::power_W); });
+  std::vector<FitParameter> unknowns;
+  for (const auto& entry : plant::parameter_table()) {
+    if (entry.key.starts_with("axis.") || entry.key == "motor.rated_torque_Nm" || (electrical(entry.key) && !power))
+      continue;
+    const double value = entry.in(axis), scale = scale_of(entry, nominal);
+    const double reach = 20.0 * scale;
+    unknowns.push_back({std::string(entry.key), value, std::max(entry.lowest, entry.lowest < 0.0 ? -reach : 1e-3 * scale),
+                        std::min(entry.highest, reach), scale});
+    if (entry.lowest == 0.0) unknowns.back().lowest = 0.0;
+  }
+  const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
+  unknowns.push_back({position_offset_key, 0.0, -5.0 * count_m, 5.0 * count_m, count_m});
+  if (with_force_offset) {
+    const double scale = 0.2 * (nominal.ball_screw.coulomb_N.pos + nominal.ball_screw.coulomb_N.neg);
+    unknowns.push_back({force_offset_key, 0.0, -10.0 * scale, 10.0 * scale, scale});
+  }
+  return unknowns;
+}
+
+CandidateAxis axis_at(const plant::AxisParameters& nominal, const std::vector<FitParameter>& unknowns,
+                      const Eigen::VectorXd& point) {
+  CandidateAxis candidate{nominal};
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const double value = point[static_cast<Eigen::Index>(i)];
+    if (unknowns[i].key == position_offset_key) {
+      candidate.position_offset_m = value;
+    } else if (unknowns[i].key == force_offset_key) {
+      candidate.force_offset_N = value;
+    } else {
+      plant::find_parameter(unknowns[i].key)->in(candidate.parameters) = value;
+    }
+  }
+  keep_breakaway(candidate.parameters.ball_screw);
+  keep_breakaway(candidate.parameters.guide);
+  return candidate;
+}
+
+BatchSimulator lane_simulator(const plant::AxisParameters& nominal, const std::vector<FitParameter>& unknowns) {
+  return [nominal, unknowns](const ClosedLoopRun& run, const Eigen::MatrixXd& points) {
+    std::vector<CandidateAxis> candidates;
+    for (Eigen::Index i = 0; i < points.cols(); ++i) candidates.push_back(axis_at(nominal, unknowns, points.col(i)));
+    return simulate_closed_loop(run, candidates, wanted_for(run.recording()));
+  };
+}
+
+}  // namespace feedtwin::tools

@@ -1,0 +1,41 @@
+#include "tools/identify/channel_residuals.h"
+
+namespace feedtwin::tools {
+
+lanes::Wanted wanted_for(const Recording& recording) {
+  return {.torque = true,
+          .position = false,
+          .torque_sensor = recording.has(channel::torque_sensor_Nm),
+          .force_sensor = recording.has(channel::force_sensor_N),
+          .power = recording.has(channel::power_W)};
+}
+
+std::span<const double> simulated_channel(const Simulated& simulated, std::string_view name) {
+  if (name == channel::torque_cmd_Nm) return simulated.torque_Nm;
+  if (name == channel::position_m) return simulated.position_m;
+  if (name == channel::torque_sensor_Nm) return simulated.torque_sensor_Nm;
+  if (name == channel::force_sensor_N) return simulated.force_sensor_N;
+  if (name == channel::power_W) return simulated.power_W;
+  return {};
+}
+
+std::array<std::vector<double>, fitted_channels.size()> channel_residuals(const Recording& recording,
+                                                                          const MeteredPower& meter,
+                                                                          const Simulated& simulated) {
+  std::array<std::vector<double>, fitted_channels.size()> all;
+  for (std::size_t c = 0; c < fitted_channels.size(); ++c) {
+    const auto recorded = recording.at(fitted_channels[c]);
+    const auto model = simulated_channel(simulated, fitted_channels[c]);
+    if (recorded.empty() || model.empty()) continue;
+    if (fitted_channels[c] == channel::power_W) {
+      const auto shown = as_metered(model, meter);
+      for (const std::size_t row : meter.rows) all[c].push_back(shown[row] - recorded[row]);
+    } else {
+      all[c].resize(recorded.size());
+      for (std::size_t i = 0; i < recorded.size(); ++i) all[c][i] = model[i] - recorded[i];
+    }
+  }
+  return all;
+}
+
+}  // namespace feedtwin::tools

@@ -1,0 +1,27 @@
+#pragma once
+// Simulated less recorded, channel by channel.
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "tools/identify/closed_loop.h"
+
+namespace feedtwin::tools {
+
+/// The channels that identification learns from, in this order.
+inline constexpr std::array fitted_channels{channel::torque_cmd_Nm, channel::torque_sensor_Nm, channel::force_sensor_N,
+                                            channel::power_W};
+
+/// What a simulation has to give for this recording.
+[[nodiscard]] lanes::Wanted wanted_for(const Recording& recording);
+
+/// A channel as simulated; empty where it was not asked for.
+[[nodiscard]] std::span<const double> simulated_channel(const Simulated& simulated, std::string_view name);
+
+/// Residuals of the fitted channels, empty where the recording lacks one. Power: one residual for each meter reading.
+[[nodiscard]] std::array<std::vector<double>, fitted_channels.size()> channel_residuals(const Recording& recording,
+                                                                                        const MeteredPower& meter,
+                                                                                        const Simulated& simulated);
+
+}  // namespace feedtwin::tools

@@ -1,0 +1,34 @@
+#pragma once
+// Nonlinear least squares within bounds: Levenberg-Marquardt whose residuals are asked for several points at a time, so that
+// a Jacobian by forward differences, and then a row of trial steps, each cost one batch simulation.
+//
+// Ceres evaluates one point at a time through templates or cost-function objects; our residuals come in lanes. The normal
+// equations are small (about forty unknowns), so the method itself is a page.
+
+#include <Eigen/Core>
+#include <functional>
+
+namespace feedtwin::tools {
+
+struct LeastSquaresProblem {
+  Eigen::VectorXd start, lowest, highest;
+  Eigen::VectorXd step;  ///< for forward differences, > 0
+  /// One column of residuals for each column of points.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd& points)> residuals;
+  int most_iterations = 30;
+  double cost_tolerance = 1e-7;  ///< relative fall of the cost below which the search ends
+};
+
+struct LeastSquaresSolution {
+  Eigen::VectorXd point;
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;  ///< at the point
+  double cost = 0.0;         ///< half the sum of squares
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// @throws nothing of its own; a point whose residuals are not finite counts as infinitely bad.
+[[nodiscard]] LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem);
+
+}  // namespace feedtwin::tools

@@ -1,0 +1,244 @@
+#include "tools/identify/output_error.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/identify/channel_residuals.h"
+#include "tools/identify/least_squares.h"
+#include "tools/identify/whitening.h"
+
+namespace feedtwin::tools {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double normal_90 = 1.6448536269514722;               // half-width of a 90 % interval in deviations
+constexpr double difference_step = 1e-4, largest_step = 0.03;  // of a parameter's scale
+constexpr std::size_t block_samples = 200;
+
+/// Residuals of all runs and channels in one column, whitened, then the prior's.
+class ResidualStack {
+ public:
+  ResidualStack(const std::vector<ClosedLoopRun>& runs, const std::vector<FitParameter>& parameters,
+                const BatchSimulator& simulate, const OutputErrorSettings& settings)
+      : runs_(runs), parameters_(parameters), simulate_(simulate), settings_(settings) {
+    for (const auto& run : runs) {
+      const auto power = run.recording().at(channel::power_W);
+      meters_.push_back(power.empty() ? MeteredPower{} : metered_rows(power));
+    }
+  }
+
+  MatrixXd operator()(const MatrixXd& points) {
+    MatrixXd all;
+    Index row = 0;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const auto simulated = simulate_(runs_[r], points);
+      simulations_ += static_cast<int>(simulated.size());
+      for (Index p = 0; p < points.cols(); ++p) {
+        auto channels = channel_residuals(runs_[r].recording(), meters_[r], simulated[static_cast<std::size_t>(p)]);
+        if (all.size() == 0) all.resize(total_rows(channels), points.cols());
+        Index at = row;
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+          whitening_[c].apply(channels[c]);
+          std::copy(channels[c].begin(), channels[c].end(), all.col(p).data() + at);
+          at += static_cast<Index>(channels[c].size());
+        }
+        if (p + 1 == points.cols()) row = at;
+      }
+    }
+    for (Index p = 0; p < points.cols(); ++p) all.col(p).tail(prior_rows()) = prior(points.col(p));
+    return all;
+  }
+
+  /// Learn each channel's weight and colour from what is left at a point.
+  void weigh(const VectorXd& point, bool coloured) {
+    std::array<std::vector<std::vector<double>>, fitted_channels.size()> stretches;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const auto simulated = simulate_(runs_[r], point);
+      auto channels = channel_residuals(runs_[r].recording(), meters_[r], simulated.front());
+      for (std::size_t c = 0; c < channels.size(); ++c) {
+        if (!channels[c].empty()) stretches[c].push_back(std::move(channels[c]));
+      }
+    }
+    for (std::size_t c = 0; c < stretches.size(); ++c) {
+      whitening_[c] = fit_whitening(stretches[c], coloured ? settings_.whitening_order : 0, smallest_sigma(c));
+    }
+  }
+
+  [[nodiscard]] Index prior_rows() const { return settings_.prior > 0.0 ? static_cast<Index>(parameters_.size()) : 0; }
+  [[nodiscard]] int simulations() const { return simulations_; }
+  /// Where one stretch of residuals ends and the next begins, for what is summed in blocks.
+  [[nodiscard]] const std::vector<Index>& starts() const { return starts_; }
+
+ private:
+  /// A channel cannot be trusted beyond a ten-thousandth of its own size.
+  double smallest_sigma(std::size_t c) const {
+    double sum = 0.0, count = 0.0;
+    for (const auto& run : runs_) {
+      for (const double value : run.recording().at(fitted_channels[c])) sum += value * value, count += 1.0;
+    }
+    return count > 0.0 ? std::max(1e-4 * std::sqrt(sum / count), 1e-12) : 1.0;
+  }
+
+  Index total_rows(const std::array<std::vector<double>, fitted_channels.size()>& /*first*/) {
+    Index rows = 0;
+    starts_.clear();
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      for (const auto name : fitted_channels) {
+        const auto recorded = runs_[r].recording().at(name);
+        if (recorded.empty()) continue;
+        starts_.push_back(rows);
+        rows += static_cast<Index>(name == channel::power_W ? meters_[r].rows.size() : recorded.size());
+      }
+    }
+    starts_.push_back(rows);
+    return rows + prior_rows();
+  }
+
+  VectorXd prior(const VectorXd& point) const {
+    VectorXd off(prior_rows());
+    for (Index i = 0; i < off.size(); ++i) {
+      const auto& parameter = parameters_[static_cast<std::size_t>(i)];
+      off[i] = (point[i] - parameter.nominal) / (settings_.prior * parameter.scale);
+    }
+    return off;
+  }
+
+  const std::vector<ClosedLoopRun>& runs_;
+  const std::vector<FitParameter>& parameters_;
+  const BatchSimulator& simulate_;
+  const OutputErrorSettings& settings_;
+  std::vector<MeteredPower> meters_;
+  std::array<Whitening, fitted_channels.size()> whitening_;
+  std::vector<Index> starts_;
+  int simulations_ = 0;
+};
+
+/// Inverse of the information that data and prior hold. What whitening left correlated, or of changing size, is taken up by
+/// summing the scores block by block (sandwich); the wider of the two variances counts.
+MatrixXd covariance_of(const LeastSquaresSolution& at, const ResidualStack& stack) {
+  const MatrixXd information = at.jacobian.transpose() * at.jacobian;
+  const MatrixXd inverse = information.ldlt().solve(MatrixXd::Identity(information.rows(), information.cols()));
+  MatrixXd scores = MatrixXd::Zero(information.rows(), information.cols());
+  const auto& starts = stack.starts();
+  for (std::size_t s = 0; s + 1 < starts.size(); ++s) {
+    const Index length = starts[s + 1] - starts[s];
+    const Index block = std::min<Index>(static_cast<Index>(block_samples), std::max<Index>(length / 20, 1));
+    for (Index first = starts[s]; first < starts[s + 1]; first += block) {
+      const Index count = std::min(block, starts[s + 1] - first);
+      const VectorXd score = at.jacobian.middleRows(first, count).transpose() * at.residuals.segment(first, count);
+      scores += score * score.transpose();
+    }
+  }
+  const Index data_rows = starts.back();
+  const MatrixXd prior_jacobian = at.jacobian.bottomRows(at.jacobian.rows() - data_rows);
+  scores += prior_jacobian.transpose() * prior_jacobian;
+  const MatrixXd sandwich = inverse * scores * inverse;
+  const VectorXd widen = (sandwich.diagonal().array() / inverse.diagonal().array()).max(1.0).sqrt();
+  return widen.asDiagonal() * inverse * widen.asDiagonal();
+}
+
+/// Differences are taken over about what the data can tell apart: sticking and reversals make the residuals of a short step
+/// jump, and a derivative across such a jump would be called knowledge.
+void adapt_steps(const MatrixXd& covariance, const std::vector<FitParameter>& parameters, VectorXd& step) {
+  for (Index i = 0; i < step.size(); ++i) {
+    const auto& p = parameters[static_cast<std::size_t>(i)];
+    step[i] = std::clamp(std::sqrt(covariance(i, i)), difference_step * p.scale, largest_step * p.scale);
+  }
+}
+
+/// Central differences at a solution.
+void linearise_centrally(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
+  const Index n = at.point.size();
+  MatrixXd points = at.point.replicate(1, 2 * n);
+  for (Index i = 0; i < n; ++i) {
+    points(i, 2 * i) = std::min(at.point[i] + problem.step[i], problem.highest[i]);
+    points(i, 2 * i + 1) = std::max(at.point[i] - problem.step[i], problem.lowest[i]);
+  }
+  const MatrixXd residuals = problem.residuals(points);
+  for (Index i = 0; i < n; ++i) {
+    at.jacobian.col(i) = (residuals.col(2 * i) - residuals.col(2 * i + 1)) / (points(i, 2 * i) - points(i, 2 * i + 1));
+  }
+}
+
+/// Directions in the space of scaled unknowns that the data leave open, each by its largest members.
+std::vector<Trade> trades_of(const MatrixXd& covariance, const std::vector<FitParameter>& parameters, double told_below) {
+  VectorXd scale(covariance.rows());
+  for (Index i = 0; i < scale.size(); ++i) scale[i] = parameters[static_cast<std::size_t>(i)].scale;
+  const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
+  std::vector<Trade> trades;
+  for (Index d = scaled.rows() - 1; d >= 0; --d) {
+    if (std::sqrt(std::max(eigen.eigenvalues()[d], 0.0)) < told_below) break;
+    const VectorXd direction = eigen.eigenvectors().col(d);
+    Trade trade;
+    for (Index i = 0; i < direction.size(); ++i) {
+      if (std::abs(direction[i]) < 0.25) continue;
+      trade.keys.push_back(parameters[static_cast<std::size_t>(i)].key);
+      trade.weights.push_back(direction[i]);
+    }
+    trades.push_back(std::move(trade));
+  }
+  return trades;
+}
+
+LeastSquaresProblem problem_for(const std::vector<FitParameter>& parameters, ResidualStack& stack, int most_iterations) {
+  const auto n = static_cast<Index>(parameters.size());
+  LeastSquaresProblem problem;
+  for (auto* vector : {&problem.start, &problem.lowest, &problem.highest, &problem.step}) vector->resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const auto& p = parameters[static_cast<std::size_t>(i)];
+    problem.start[i] = p.nominal;
+    problem.lowest[i] = p.lowest;
+    problem.highest[i] = p.highest;
+    problem.step[i] = difference_step * p.scale;
+  }
+  problem.residuals = [&stack](const MatrixXd& points) { return stack(points); };
+  problem.most_iterations = most_iterations;
+  return problem;
+}
+
+}  // namespace
+
+VectorXd OutputErrorFit::point() const {
+  VectorXd values(static_cast<Index>(parameters.size()));
+  for (Index i = 0; i < values.size(); ++i) values[i] = parameters[static_cast<std::size_t>(i)].value;
+  return values;
+}
+
+OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const std::vector<FitParameter>& parameters,
+                                const BatchSimulator& simulate, const OutputErrorSettings& settings) {
+  ResidualStack stack(runs, parameters, simulate, settings);
+  LeastSquaresProblem problem = problem_for(parameters, stack, settings.most_iterations);
+  LeastSquaresSolution at;
+  for (int round = 0; round < settings.rounds; ++round) {
+    stack.weigh(problem.start, round > 0);
+    at = solve_least_squares(problem);
+    problem.start = at.point;
+    adapt_steps(covariance_of(at, stack), parameters, problem.step);
+  }
+  linearise_centrally(problem, at);
+  OutputErrorFit fit;
+  fit.covariance = covariance_of(at, stack);
+  fit.trades = trades_of(fit.covariance, parameters, settings.told_below);
+  fit.cost = at.cost;
+  fit.residuals = static_cast<std::size_t>(at.residuals.size() - stack.prior_rows());
+  fit.simulations = stack.simulations();
+  fit.converged = at.converged;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto index = static_cast<Index>(i);
+    const double deviation = std::sqrt(fit.covariance(index, index));
+    const double half = normal_90 * deviation, value = at.point[index];
+    fit.parameters.push_back({parameters[i],
+                              value,
+                              deviation,
+                              {value - half, value + half},
+                              deviation < settings.told_below * parameters[i].scale});
+  }
+  return fit;
+}
+
+}  // namespace feedtwin::tools

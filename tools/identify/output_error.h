@@ -1,0 +1,65 @@
+#pragma once
+// Output error on forward closed-loop simulation: the parameters under which the simulated command, sensors and power come
+// closest to the recorded ones, with intervals that know of the residuals' colour, and with what the data cannot tell.
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/identify/closed_loop.h"
+
+namespace feedtwin::tools {
+
+/// One unknown.
+struct FitParameter {
+  std::string key;       ///< of plant/parameter_table, or of an effect
+  double nominal = 0.0;  ///< start, and the middle of the prior
+  double lowest = 0.0, highest = 0.0;
+  double scale = 1.0;  ///< > 0: differences are taken in 1e-4 of it, and the prior's deviation is `prior` of it
+};
+
+/// Simulates one run for several sets of unknowns (a column each). Every channel that the recording has, but the scale.
+using BatchSimulator = std::function<std::vector<Simulated>(const ClosedLoopRun& run, const Eigen::MatrixXd& points)>;
+
+struct OutputErrorSettings {
+  /// Deviation of a wide prior around the nominal values, in units of `scale`: holds what the data cannot tell. 0: none.
+  double prior = 0.5;
+  /// An unknown is told by the data when its deviation is below this share of its scale.
+  double told_below = 0.15;
+  std::size_t whitening_order = 24;
+  int rounds = 3;  ///< of fitting and weighing anew
+  int most_iterations = 15;
+};
+
+struct FittedParameter {
+  FitParameter parameter;
+  double value = 0.0, deviation = 0.0;
+  double ci90[2] = {0.0, 0.0};
+  bool identifiable = false;
+};
+
+/// Unknowns of which the data tell only one combination.
+struct Trade {
+  std::vector<std::string> keys;
+  std::vector<double> weights;  ///< the direction that costs nothing, in units of the parameters' scales
+};
+
+struct OutputErrorFit {
+  std::vector<FittedParameter> parameters;
+  Eigen::MatrixXd covariance;
+  std::vector<Trade> trades;
+  double cost = 0.0;  ///< half the sum of whitened squares
+  std::size_t residuals = 0;
+  int simulations = 0;  ///< runs simulated, each for one set
+  bool converged = false;
+
+  [[nodiscard]] Eigen::VectorXd point() const;
+};
+
+/// @param runs at least one. Channels are weighed by what each one's residuals turn out to be.
+[[nodiscard]] OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs,
+                                              const std::vector<FitParameter>& parameters, const BatchSimulator& simulate,
+                                              const OutputErrorSettings& settings = {});
+
+}  // namespace feedtwin::tools

@@ -1,0 +1,45 @@
+#include "tools/identify/whitening.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feedtwin::tools {
+
+void Whitening::apply(std::span<double> residuals) const {
+  const std::size_t order = coefficients.size();
+  for (std::size_t k = residuals.size(); k-- > 0;) {
+    double e = residuals[k];
+    for (std::size_t i = 1; i <= std::min(order, k); ++i) e -= coefficients[i - 1] * residuals[k - i];
+    residuals[k] = e / sigma;
+  }
+}
+
+Whitening fit_whitening(std::span<const std::vector<double>> stretches, std::size_t highest_order, double smallest_sigma) {
+  std::size_t samples = 0;
+  for (const auto& stretch : stretches) samples += stretch.size();
+  const std::size_t order = std::min(highest_order, samples / 40);
+  std::vector<double> correlation(order + 1, 0.0);
+  for (const auto& r : stretches) {
+    for (std::size_t lag = 0; lag <= std::min(order, r.size() - (r.empty() ? 0 : 1)); ++lag) {
+      for (std::size_t k = lag; k < r.size(); ++k) correlation[lag] += r[k] * r[k - lag];
+    }
+  }
+  for (double& c : correlation) c /= static_cast<double>(std::max<std::size_t>(samples, 1));
+  Whitening whitening;
+  double variance = correlation[0] * (1.0 + 1e-9);
+  std::vector<double>& a = whitening.coefficients;
+  for (std::size_t m = 0; m < order && variance > 0.0; ++m) {
+    double k = correlation[m + 1];
+    for (std::size_t i = 0; i < m; ++i) k -= a[i] * correlation[m - i];
+    k /= variance;
+    std::vector<double> next(a);
+    next.push_back(k);
+    for (std::size_t i = 0; i < m; ++i) next[i] = a[i] - k * a[m - 1 - i];
+    a = std::move(next);
+    variance *= 1.0 - k * k;
+  }
+  whitening.sigma = std::max(std::sqrt(std::max(variance, 0.0)), smallest_sigma);
+  return whitening;
+}
+
+}  // namespace feedtwin::tools
