@@ -7,7 +7,7 @@ namespace feedtwin::rt {
 
 using io::DriveState;
 
-bool CommandGuard::take(const io::AxisRequest& request, Decision& decision) noexcept {
+bool CommandGuard::take(const io::AxisRequest& request, io::AxisRequest& before, Decision& decision) noexcept {
   if (!std::isfinite(request.torque_Nm)) {
     ++counters_.refused;
     decision.event = EventKind::refused_number;
@@ -21,6 +21,7 @@ bool CommandGuard::take(const io::AxisRequest& request, Decision& decision) noex
       ++counters_.reordered;
       return false;
     }
+    if (ahead >= restart_distance || ahead <= -restart_distance) before = {};
     if (ahead > 1 && ahead < restart_distance) counters_.lost += static_cast<std::uint64_t>(ahead - 1);
   }
   in_force_ = request;
@@ -72,8 +73,8 @@ void CommandGuard::change_state(const io::AxisRequest& before, bool fresh, Decis
 
 CommandGuard::Decision CommandGuard::decide(const io::AxisRequest& request, bool fresh, std::int64_t now_ns) noexcept {
   Decision decision;
-  const io::AxisRequest before = in_force_;
-  const bool taken = fresh && take(request, decision);
+  io::AxisRequest before = in_force_;
+  const bool taken = fresh && take(request, before, decision);
   if (!fresh && any_request_) ++counters_.held;
   if (any_request_) decision.age_ns = std::max<std::int64_t>(0, now_ns - in_force_.arrival_ns);
   change_state(before, taken, decision);

@@ -32,7 +32,8 @@ struct GuardCounters {
 ///
 /// disabled -> enabled on a request with `enable`; enabled -> quick_stop on `quick_stop`, back when it is taken away;
 /// enabled, quick_stop -> fault when the newest request is older than the watchdog time; fault -> disabled when a new
-/// request raises `fault_reset` or takes `enable` away and gives it again. Torque acts in `enabled` only.
+/// request raises `fault_reset` or takes `enable` away and gives it again, or when a controller that has started afresh
+/// gives it at once. Torque acts in `enabled` only.
 class CommandGuard {
  public:
   explicit CommandGuard(const GuardLimits& limits) noexcept : limits_(limits) {}
@@ -52,7 +53,8 @@ class CommandGuard {
   [[nodiscard]] const GuardCounters& counters() const noexcept { return counters_; }
 
  private:
-  bool take(const io::AxisRequest& request, Decision& decision) noexcept FEEDTWIN_REALTIME;
+  /// @param before what a rising edge is told against; cleared for a controller that has started afresh
+  bool take(const io::AxisRequest& request, io::AxisRequest& before, Decision& decision) noexcept FEEDTWIN_REALTIME;
   void change_state(const io::AxisRequest& before, bool fresh, Decision& decision) noexcept FEEDTWIN_REALTIME;
 
   GuardLimits limits_;

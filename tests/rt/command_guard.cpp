@@ -73,6 +73,16 @@ TEST_F(Guarded, TakingEnableAwayAndGivingItAgainClearsAFault) {
   EXPECT_EQ(give(request(0.5, 4, 53 * ms), 53 * ms).torque_Nm, 0.5);
 }
 
+TEST_F(Guarded, AControllerThatStartsAfreshMayEnableAtOnceAfterAFault) {
+  EXPECT_EQ(give(request(0.5, 100, 0), 0).torque_Nm, 0.5);
+  EXPECT_EQ(nothing(11 * ms).torque_Nm, 0.0);
+  EXPECT_EQ(give(request(0.5, 100 + restart_distance - 1, 12 * ms), 12 * ms).torque_Nm, 0.0);
+  EXPECT_EQ(guard.state(), DriveState::fault) << "the same controller has to reset it";
+  give(request(0.4, 100 + 3 * restart_distance, 13 * ms), 13 * ms);
+  EXPECT_EQ(guard.state(), DriveState::disabled);
+  EXPECT_EQ(nothing(14 * ms).torque_Nm, 0.4);
+}
+
 TEST_F(Guarded, QuickStopTakesTheTorqueAndGivesItBack) {
   give(request(0.5, 1, 0), 0);
   AxisRequest stop = request(0.5, 2, ms);
