@@ -1,0 +1,146 @@
+#include "tools/diagnose/fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/parallel.h"
+
+namespace feedtwin::tools::diagnosis {
+
+Fitter::Fitter(const InverseModel& model, const plant::AxisParameters& nominal)
+    : model_(model), nominal_(nominal), base_(base_parameters(model.power_recorded())) {}
+
+double Fitter::tolerance(std::size_t parameter) const {
+  const auto& p = base_[parameter];
+  const double value = std::abs(value_of(p, nominal_));
+  if (value > 0.0) return p.tolerance * value;
+  const double span = std::min(p.entry->highest, 1e3) - std::max(p.entry->lowest, -1e3);
+  return 1e-4 * span;
+}
+
+Vector Fitter::deviations(const plant::AxisParameters& axis) const {
+  Vector out(static_cast<Index>(base_.size()));
+  for (std::size_t i = 0; i < base_.size(); ++i)
+    out[static_cast<Index>(i)] = (value_of(base_[i], axis) - value_of(base_[i], nominal_)) / tolerance(i);
+  return out;
+}
+
+Vector Fitter::whitened(const Candidate& at, const Vector& residual, const Whitening& whitening) const {
+  const auto n = static_cast<Index>(base_.size());
+  Vector white(residual.size() + n);
+  white.head(residual.size()) = whitening.applied(model_, residual);
+  white.tail(n) = -deviations(at.axis);
+  return white;
+}
+
+Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
+  Candidate to = from;
+  Index at = 0;
+  for (std::size_t i = 0; i < base_.size(); ++i, ++at) {
+    const double value = value_of(base_[i], from.axis);
+    const double change = step[at] * tolerance(i);
+    const double most = std::max(0.4 * std::abs(value), 0.4 * tolerance(i));
+    set_value(base_[i], to.axis, value + std::clamp(change, -most, most));
+  }
+  for (auto& effect : to.effects)
+    for (std::size_t j = 0; j < effect.q.size(); ++j) {
+      const auto& p = effect.hypothesis->parameters[j];
+      if (p.kind == Kind::fixed) continue;
+      double change = step[at++];
+      if (p.kind == Kind::shape) {
+        const double most = std::max(20.0 * p.step, 0.25 * std::abs(effect.q[j]));
+        change = std::clamp(change, -most, most);
+      }
+      effect.q[j] = std::clamp(effect.q[j] + change, p.lowest, p.highest);
+    }
+  return to;
+}
+
+Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
+  Fit fit;
+  fit.model = at;
+  fit.base = base_;
+  const auto contacts = model_.contacts(at.axis, at.effects);
+  fit.residual = model_.residual(at.axis, at.effects, contacts);
+  fit.white = whitened(at, fit.residual, whitening);
+  fit.cost = fit.white.squaredNorm();
+
+  struct Unknown {
+    std::size_t effect, parameter;
+    bool base;
+  };
+  std::vector<Unknown> unknowns;
+  for (std::size_t i = 0; i < base_.size(); ++i) unknowns.push_back({0, i, true});
+  for (std::size_t e = 0; e < at.effects.size(); ++e)
+    for (std::size_t j = 0; j < at.effects[e].q.size(); ++j)
+      if (at.effects[e].hypothesis->parameters[j].kind != Kind::fixed) unknowns.push_back({e, j, false});
+
+  fit.jacobian.resize(fit.white.size(), static_cast<Index>(unknowns.size()));
+  parallel_for(unknowns.size(), [&](std::size_t u) {
+    Candidate near = at;
+    bool refollow = false;
+    double step = 0.02;
+    if (unknowns[u].base) {
+      const auto& p = base_[unknowns[u].parameter];
+      const double value = value_of(p, at.axis), unit = tolerance(unknowns[u].parameter);
+      set_value(p, near.axis, value + step * unit);
+      step = (value_of(p, near.axis) - value) / unit;
+      if (step == 0.0) {
+        set_value(p, near.axis, value - 0.02 * unit);
+        step = (value_of(p, near.axis) - value) / unit;
+      }
+      refollow = p.moves_friction;
+    } else {
+      auto& effect = near.effects[unknowns[u].effect];
+      const auto& p = effect.hypothesis->parameters[unknowns[u].parameter];
+      step = effect.q[unknowns[u].parameter] + p.step > p.highest ? -p.step : p.step;
+      effect.q[unknowns[u].parameter] += step;
+      refollow = effect.hypothesis->friction;
+    }
+    const Vector r =
+        refollow ? model_.residual(near.axis, near.effects) : model_.residual(near.axis, near.effects, contacts);
+    fit.jacobian.col(static_cast<Index>(u)) =
+        step == 0.0 ? Vector::Zero(fit.white.size()) : Vector((fit.white - whitened(near, r, whitening)) / step);
+  });
+
+  Eigen::MatrixXd information = fit.jacobian.transpose() * fit.jacobian;
+  const Vector diagonal = information.diagonal();
+  for (Index i = 0; i < diagonal.size(); ++i) information(i, i) += 1e-12 * diagonal[i] + 1e-12;
+  fit.covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(diagonal.size(), diagonal.size()));
+  return fit;
+}
+
+Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iterations) const {
+  Fit best = linearised(start, whitening);
+  for (int i = 0; i < iterations; ++i) {
+    const Vector step = best.covariance * (best.jacobian.transpose() * best.white);
+    double length = 1.0;
+    bool better = false;
+    Candidate next;
+    double cost = best.cost;
+    for (int halving = 0; halving < 5 && !better; ++halving, length *= 0.5) {
+      next = moved(best.model, length * step);
+      cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
+      better = cost < best.cost;
+    }
+    if (!better) break;
+    const double gain = best.cost - cost;
+    best = linearised(next, whitening);
+    if (gain < 1e-5 * best.cost) break;
+  }
+  return best;
+}
+
+Fit Fitter::fit_with_colour(const Candidate& start, Whitening& whitening, int rounds, int iterations) const {
+  Fit best;
+  Candidate at = start;
+  for (int round = 0; round < rounds; ++round) {
+    best = fit(at, whitening, iterations);
+    at = best.model;
+    whitening = Whitening::estimate(model_, best.residual);
+  }
+  return linearised(at, whitening);
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,59 @@
+#pragma once
+// All numbers at once: the nominal ones within their tolerance and the effects' own, by Gauss-Newton on the whitened
+// residual. The prior on the nominal numbers also settles what the recording can't separate.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tools/diagnose/base_parameters.h"
+#include "tools/diagnose/inverse_model.h"
+#include "tools/diagnose/whitening.h"
+
+namespace feedtwin::tools::diagnosis {
+
+struct Candidate {
+  plant::AxisParameters axis;
+  std::vector<Active> effects;
+};
+
+struct Fit {
+  Candidate model;
+  Vector residual;             ///< in the equations' units
+  Vector white;                ///< whitened residual, then the prior's
+  Eigen::MatrixXd jacobian;    ///< of `white` by the unknowns, negative: white ~ white0 - jacobian * change
+  Eigen::MatrixXd covariance;  ///< of the unknowns
+  double cost = 0.0;           ///< |white|^2
+
+  [[nodiscard]] Index base_count() const { return static_cast<Index>(base.size()); }
+  std::vector<BaseParameter> base;
+};
+
+class Fitter {
+ public:
+  Fitter(const InverseModel& model, const plant::AxisParameters& nominal);
+
+  /// From a start, with a given colour. Deterministic.
+  [[nodiscard]] Fit fit(const Candidate& start, const Whitening& whitening, int iterations) const;
+  /// Residual and derivatives where it stands.
+  [[nodiscard]] Fit linearised(const Candidate& at, const Whitening& whitening) const;
+  /// A colour first: fits with the residual's own colour of each round.
+  [[nodiscard]] Fit fit_with_colour(const Candidate& start, Whitening& whitening, int rounds, int iterations) const;
+
+  [[nodiscard]] const InverseModel& model() const { return model_; }
+  [[nodiscard]] const plant::AxisParameters& nominal() const { return nominal_; }
+  [[nodiscard]] const std::vector<BaseParameter>& base() const { return base_; }
+  /// (value - nominal) in tolerances.
+  [[nodiscard]] Vector deviations(const plant::AxisParameters& axis) const;
+  /// What one tolerance is, in the parameter's unit.
+  [[nodiscard]] double tolerance(std::size_t parameter) const;
+
+ private:
+  [[nodiscard]] Vector whitened(const Candidate& at, const Vector& residual, const Whitening& whitening) const;
+  [[nodiscard]] Candidate moved(const Candidate& from, const Vector& step) const;
+
+  const InverseModel& model_;
+  plant::AxisParameters nominal_;
+  std::vector<BaseParameter> base_;
+};
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,45 @@
+// Backlash: the nut follows the screw with a play of gap; the scale shows the play operator.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  const Track& track = view.track;
+  Vector slip(track.size);
+  double table = track.position_m[0];
+  for (Index k = 0; k < track.size; ++k) {
+    table = std::clamp(table, track.position_m[k] - 0.5 * q[0], track.position_m[k] + 0.5 * q[0]);
+    slip[k] = table - track.position_m[k];
+  }
+  add(sum.slip_m, slip);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"gap_m", q[0]}};
+}
+
+}  // namespace
+
+Hypothesis backlash() {
+  return {.id = "backlash",
+          .component = "ball_screw",
+          .channel = "scale_position_m",
+          .where = Where::reversal,
+          .parameters = {{"gap_m", Kind::amplitude, 1e-7, 0.0, 1e-3}},
+          .shapes = {{}},
+          .apply = apply,
+          .named = named,
+
+          .sentence = "the table follows the motor with a play of {gap_m} m at every reversal",
+
+          .confused_with = {"presliding_memory", "screw_compliance"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,42 @@
+// Cable chain or bellows: F = k (x - neutral), the same in both directions.
+
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  add(sum.guide_N, (q[0] * view.track.table_position_m.array() + q[1]).matrix());
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"stiffness_N_per_m", q[0]}, {"neutral_m", q[0] != 0.0 ? -q[1] / q[0] : 0.0}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 0.0;
+}
+
+}  // namespace
+
+Hypothesis cable_spring() {
+  return {
+      .id = "cable_spring",
+      .component = "guide",
+      .channel = "force_sensor_N",
+      .where = Where::position,
+      .parameters = {{"stiffness_N_per_m", Kind::amplitude, 1.0}, {"offset_N", Kind::amplitude, 0.1}},
+      .shapes = {{}},
+      .apply = apply,
+      .named = named,
+      .admissible = possible,
+      .sentence = "a cable or bellows pulls with {stiffness_N_per_m} N/m towards {neutral_m} m, the same in both directions",
+
+      .confused_with = {"position_friction", "gravity"},
+      .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

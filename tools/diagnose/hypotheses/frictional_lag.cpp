@@ -1,0 +1,38 @@
+// Frictional lag: sliding friction follows speed after a time.
+
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  const Vector now = view.base.screw_N;
+  add(sum.screw_N, lagged(now, q[0] / view.track.sample_s) - now);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"lag_s", q[0]}};
+}
+
+}  // namespace
+
+Hypothesis frictional_lag() {
+  return {.id = "frictional_lag",
+          .component = "ball_screw",
+          .channel = "torque_cmd_Nm",
+          .where = Where::time,
+          .parameters = {{"lag_s", Kind::amplitude, 1e-3, 0.0, 0.2}},
+          .shapes = {{}},
+          .apply = apply,
+          .named = named,
+
+          .sentence = "friction follows speed with a lag of {lag_s} s",
+
+          .confused_with = {"input_delay", "current_loop_lag"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

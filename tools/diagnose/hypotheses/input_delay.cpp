@@ -1,0 +1,37 @@
+// Dead time: the command acts later.
+
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  add(sum.drive_N, about_sample(delayed(view.track.held_N, q[0] / view.track.sample_s)) - view.track.command_N);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"delay_s", q[0]}};
+}
+
+}  // namespace
+
+Hypothesis input_delay() {
+  return {.id = "input_delay",
+          .component = "drive",
+          .channel = "torque_cmd_Nm",
+          .where = Where::time,
+          .parameters = {{"delay_s", Kind::amplitude, 1e-4, 0.0, 0.05}},
+          .shapes = {{}},
+          .apply = apply,
+          .named = named,
+
+          .sentence = "the command acts {delay_s} s late",
+
+          .confused_with = {"current_loop_lag", "channel_skew", "frictional_lag"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

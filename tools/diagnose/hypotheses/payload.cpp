@@ -1,0 +1,41 @@
+// Payload: more mass on the table, acceleration only.
+
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  add(sum.guide_N, q[0] * view.track.table_acceleration_m_per_s2);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"mass_kg", q[0]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 0.0;
+}
+
+}  // namespace
+
+Hypothesis payload() {
+  return {.id = "payload",
+          .component = "guide",
+          .channel = "force_sensor_N",
+          .where = Where::time,
+          .parameters = {{"mass_kg", Kind::amplitude, 0.1}},
+          .shapes = {{}},
+          .apply = apply,
+          .named = named,
+          .admissible = possible,
+          .sentence = "the table carries {mass_kg} kg more than the model says",
+          .number_of_the_model = true,
+          .confused_with = {"current_loop_lag"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,42 @@
+#include "tools/diagnose/hypotheses/registry.h"
+
+namespace feedtwin::tools::diagnosis {
+
+std::vector<Hypothesis> registered() {
+  return {
+      cogging(),
+      torque_ripple(),
+      rev_ripple(),
+      backlash(),
+      screw_compliance(),
+      position_friction(),
+      copper_loss(),
+      payload(),
+      cable_spring(),
+      current_loop_lag(),
+      input_delay(),
+      thermal_friction(),
+      friction_drift(),
+      torque_gain_error(),
+      torque_offset(),
+      gravity(),
+      quadratic_drag(),
+      sublinear_viscous(),
+      lead_error(),
+      cyclic_lead_error(),
+      encoder_eccentricity(),
+      frictional_lag(),
+      local_friction(),
+      dwell_breakaway(),
+      regeneration_clipped(),
+      power_meter_window(),
+      sensor_gain(),
+      channel_skew(),
+      torque_saturation(),
+      floor_vibration(),
+      screw_growth(),
+      load_dependent_friction(),
+  };
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,42 @@
+// Axial compliance: scale - encoder = -F / k, F the force on the table.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  const Track& track = view.track;
+  const Vector force = track.force_sensor_N.size() > 0
+                           ? track.force_sensor_N
+                           : Vector(view.base.guide_N + view.axis.guide_mass_kg * track.table_acceleration_m_per_s2);
+  add(sum.slip_m, -q[0] * force);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"stiffness_N_per_m", 1.0 / std::max(q[0], 1e-12)}};
+}
+
+}  // namespace
+
+Hypothesis screw_compliance() {
+  return {.id = "screw_compliance",
+          .component = "ball_screw",
+          .channel = "scale_position_m",
+          .where = Where::time,
+          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1e-3}},
+          .shapes = {{}},
+          .apply = apply,
+          .named = named,
+
+          .sentence = "screw, nut and bearing yield: {stiffness_N_per_m} N/m between motor and table",
+
+          .confused_with = {"backlash", "lead_error"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

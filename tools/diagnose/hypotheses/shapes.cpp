@@ -1,0 +1,65 @@
+#include "tools/diagnose/hypotheses/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feedtwin::tools::diagnosis {
+
+Vector wave(const Vector& x, double period, double order, double sine, double cosine) {
+  const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * order / period * x.array();
+  return (sine * angle.sin() + cosine * angle.cos()).matrix();
+}
+
+Vector delayed(const Vector& values, double samples) {
+  Vector out(values.size());
+  const double last = static_cast<double>(values.size() - 1);
+  for (Index k = 0; k < values.size(); ++k) {
+    const double at = std::clamp(static_cast<double>(k) - samples, 0.0, last);
+    const auto before = static_cast<Index>(at);
+    const Index after = std::min(before + 1, values.size() - 1);
+    out[k] = values[before] + (at - static_cast<double>(before)) * (values[after] - values[before]);
+  }
+  return out;
+}
+
+Vector lagged(const Vector& values, double samples) {
+  if (samples < 1e-6) return values;
+  const double keep = std::exp(-1.0 / samples);
+  Vector out(values.size());
+  double at = values[0];
+  for (Index k = 0; k < values.size(); ++k) {
+    out[k] = values[k] + (at - values[k]) * samples * (1.0 - keep);
+    at = values[k] + (at - values[k]) * keep;
+  }
+  return out;
+}
+
+Grid whole_orders(int first, int last) {
+  Grid grid;
+  for (int order = first; order <= last; ++order) grid.push_back({static_cast<double>(order)});
+  return grid;
+}
+
+Grid ripple_orders() {
+  Grid grid;
+  for (int i = 20; i <= 400; ++i) {
+    const double order = 0.025 * i;
+    if (order <= 2.0 || std::abs(order - std::round(order)) > 0.04) grid.push_back({order});
+  }
+  return grid;
+}
+
+Grid frequencies() {
+  Grid grid;
+  for (int i = 0; i <= 370; ++i) grid.push_back({8.0 + 0.1 * i});
+  return grid;
+}
+
+Grid spots() {
+  Grid grid;
+  for (const double width : {0.001, 0.003, 0.008})
+    for (double at = -0.075; at <= 0.0751; at += width) grid.push_back({at, width});
+  return grid;
+}
+
+}  // namespace feedtwin::tools::diagnosis

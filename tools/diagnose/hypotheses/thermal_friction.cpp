@@ -1,0 +1,56 @@
+// Warm-up: the screw's viscous friction times 1 - r (1 - exp(-E / E_0)), E the work done on it since the start of the run.
+
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  const Track& track = view.track;
+  const auto& screw = view.axis.ball_screw;
+  Vector factor(track.size);
+  double work_J = 0.0;
+  for (Index k = 0; k < track.size; ++k) {
+    const double v = track.velocity_m_per_s[k], speed = std::abs(v);
+    const auto side = v > 0.0 ? &plant::Directional::pos : &plant::Directional::neg;
+    factor[k] = 1.0 - q[0] * (1.0 - std::exp(-work_J / q[1]));
+    const double sliding = screw.coulomb_N.*side +
+                           (screw.static_N.*side - screw.coulomb_N.*side) * std::exp(-speed / screw.stribeck_m_per_s.*side);
+    work_J += (sliding + factor[k] * screw.viscous_Ns_per_m.*side * speed) * speed * track.sample_s;
+  }
+  scale(sum.screw_viscous, factor);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"viscous_reduction", q[0]}, {"energy_scale_J", q[1]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 0.0;
+}
+
+}  // namespace
+
+Hypothesis thermal_friction() {
+  return {.id = "thermal_friction",
+          .component = "ball_screw",
+          .channel = "torque_cmd_Nm",
+          .where = Where::time,
+          .parameters = {{"viscous_reduction", Kind::amplitude, 1e-2, -2.0, 0.95},
+                         {"energy_scale_J", Kind::shape, 1e-2, 0.1, 1e5}},
+          .shapes = {{2.0}, {5.0}, {12.0}, {30.0}, {80.0}, {250.0}},
+          .apply = apply,
+          .named = named,
+          .admissible = possible,
+          .sentence =
+              "the screw warms up: its viscous friction falls by {viscous_reduction} of itself within {energy_scale_J} J of "
+              "work",
+
+          .confused_with = {"friction_drift"},
+          .friction = true};
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,37 @@
+// Torque constant: the motor gives (1 + g) times its command.
+
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  add(sum.drive_N, q[0] * view.track.command_N);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"relative_error", q[0]}};
+}
+
+}  // namespace
+
+Hypothesis torque_gain_error() {
+  return {.id = "torque_gain_error",
+          .component = "drive",
+          .channel = "torque_cmd_Nm",
+          .where = Where::time,
+          .parameters = {{"relative_error", Kind::amplitude, 1e-3, -0.6, 1.0}},
+          .shapes = {{}},
+          .apply = apply,
+          .named = named,
+
+          .sentence = "the motor gives {relative_error} of its commanded torque more than it says",
+
+          .confused_with = {"sensor_gain"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

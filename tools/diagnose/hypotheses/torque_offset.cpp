@@ -1,0 +1,37 @@
+// Offset of the drive: a constant torque.
+
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  add(sum.drive_N, Vector::Constant(view.track.size, q[0] * per_lead(view.axis)));
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"offset_Nm", q[0]}};
+}
+
+}  // namespace
+
+Hypothesis torque_offset() {
+  return {.id = "torque_offset",
+          .component = "drive",
+          .channel = "torque_cmd_Nm",
+          .where = Where::time,
+          .parameters = {{"offset_Nm", Kind::amplitude, 1e-3}},
+          .shapes = {{}},
+          .apply = apply,
+          .named = named,
+
+          .sentence = "the drive adds a constant {offset_Nm} N m",
+
+          .confused_with = {"gravity", "direction_dependent_friction"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

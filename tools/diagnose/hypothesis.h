@@ -1,0 +1,86 @@
+#pragma once
+// What a hypothesis about missing physics is: a law that adds forces, readings or a change of friction to the inverse model,
+// where its search starts, and what an engineer calls its parameters. One file each in hypotheses/, one line in the
+// registry.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plant/parameters.h"
+#include "tools/diagnose/track.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// What the nominal model says along a run: forces that resist motion, about each sample.
+struct Baseline {
+  Vector motor_N, screw_N, guide_N;
+  Vector screw_viscous_N;  ///< the viscous part of screw_N
+  Vector power_W;          ///< drive input
+};
+
+/// What the law may look at.
+struct View {
+  const Track& track;
+  const plant::AxisParameters& axis;
+  const Baseline& base;
+};
+
+/// What an effect adds at every sample. An empty vector stands for zeros (ones for the factors).
+struct Contribution {
+  Vector drive_N;                          ///< torque of the motor beyond its command
+  Vector motor_N, screw_N, guide_N;        ///< more resistance in a component
+  Vector torque_sensor_N, force_sensor_N;  ///< a sensor's reading beyond the truth
+  Vector slip_m;                           ///< linear scale less motor encoder
+  Vector power_W;                          ///< drive input beyond the model
+  Vector screw_sliding, screw_viscous;     ///< factors on F_C and F_S, on mu, along the run
+};
+
+/// How a working parameter enters.
+enum class Kind {
+  amplitude,  ///< the effect vanishes with all its amplitudes
+  shape,      ///< lag, scale: searched on a grid, then refined
+  fixed       ///< searched on a grid and left there: a whole number
+};
+
+struct WorkingParameter {
+  std::string_view name;
+  Kind kind = Kind::amplitude;
+  double step = 1e-3;  ///< for differences: small against any value that matters
+  double lowest = -1e30, highest = 1e30;
+};
+
+/// A parameter as it is reported and as an axis file holds it.
+struct NamedValue {
+  std::string name;
+  double value = 0.0;
+};
+
+enum class Where { position, velocity, time, reversal, order, frequency };
+
+struct Hypothesis {
+  std::string_view id, component, channel;
+  Where where = Where::time;
+  std::vector<WorkingParameter> parameters;
+  std::vector<std::vector<double>> shapes;  ///< grid of the shape parameters; one empty entry where there are none
+  void (*apply)(const View& view, std::span<const double> q, Contribution& sum) = nullptr;
+  std::vector<NamedValue> (*named)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
+  /// Is the fitted value physically possible? nullptr: always.
+  bool (*admissible)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
+  std::string_view sentence;         ///< what it is, in an engineer's words; {name} stands for a value with its interval
+  bool number_of_the_model = false;  ///< payload, gravity: a wrong number rather than missing physics
+  std::vector<std::string_view> confused_with;
+
+  bool friction = false;  ///< sets the factors, so that friction must be followed again
+};
+
+[[nodiscard]] const std::vector<Hypothesis>& hypotheses();
+[[nodiscard]] const Hypothesis& hypothesis(std::string_view id);
+
+/// Adds to a vector that may still be empty.
+void add(Vector& sum, const Vector& more);
+/// Multiplies factors that may still be empty.
+void scale(Vector& factors, const Vector& more);
+
+}  // namespace feedtwin::tools::diagnosis

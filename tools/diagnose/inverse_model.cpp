@@ -1,0 +1,260 @@
+#include "tools/diagnose/inverse_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "plant/axis_model.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+using Pair = plant::Doubles<2>;
+constexpr std::size_t taps = 17;
+
+/// Hamming-windowed low pass at a tenth of the sample rate.
+const std::array<double, taps>& low_pass() {
+  static const auto kernel = [] {
+    std::array<double, taps> made{};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < taps; ++i) {
+      const double t = static_cast<double>(i) - (taps - 1) / 2.0;
+      const double argument = std::numbers::pi * 0.2 * t;
+      made[i] = (0.54 + 0.46 * std::cos(2.0 * std::numbers::pi * t / (taps - 1))) *
+                (t == 0.0 ? 1.0 : std::sin(argument) / argument);
+      sum += made[i];
+    }
+    for (double& weight : made) weight /= sum;
+    return made;
+  }();
+  return kernel;
+}
+
+std::vector<Equation> equations_for(const Track& track) {
+  const bool torque = track.torque_sensor_N.size() > 0, force = track.force_sensor_N.size() > 0;
+  std::vector<Equation> found;
+  Equation open{.name = "motor", .motor = true};
+  const auto close = [&](bool sensor, std::string next) {
+    if (sensor) {
+      found.push_back(open);
+      open = {.name = next};
+    } else {
+      open.name += "+" + next;
+    }
+  };
+  close(torque, "screw");
+  open.screw = true;
+  close(force, "guide");
+  open.guide = true;
+  found.push_back(open);
+  if (track.slip_m.size() > 0) found.push_back({.name = "slip", .slip = true});
+  if (!track.meter.starts.empty()) found.push_back({.name = "power", .power = true});
+  return found;
+}
+
+Contribution contribution_of(const std::vector<Active>& effects, const View& view) {
+  Contribution sum;
+  for (const auto& effect : effects) effect.hypothesis->apply(view, effect.q, sum);
+  return sum;
+}
+
+void subtract(Vector& from, const Vector& what) {
+  if (what.size() > 0) from -= what;
+}
+
+}  // namespace
+
+InverseModel::InverseModel(std::vector<Track> tracks)
+    : tracks_(std::move(tracks)), equations_(equations_for(tracks_.front())) {
+  for (std::size_t e = 0; e < equations_.size(); ++e)
+    for (std::size_t r = 0; r < tracks_.size(); ++r) {
+      const Track& track = tracks_[r];
+      const Index size = equations_[e].power ? static_cast<Index>(track.meter.starts.size())
+                                             : std::max<Index>(0, (track.size - 2 * margin) / decimation);
+      segments_.push_back({e, r, rows_, size});
+      rows_ += size;
+      power_ = power_ || equations_[e].power;
+    }
+}
+
+Index InverseModel::sample_of(const Segment& segment, Index row) const {
+  const auto& meter = tracks_[segment.run].meter;
+  if (equations_[segment.equation].power) return meter.starts[static_cast<std::size_t>(row)] + meter.length / 2;
+  return margin + row * decimation;
+}
+
+std::vector<ContactForces> InverseModel::contacts(const plant::AxisParameters& axis,
+                                                  const std::vector<Active>& effects) const {
+  const auto model = plant::make_axis_model(axis);
+  const auto& both = model.contacts;
+  std::vector<ContactForces> forces;
+  bool scaled = false;
+  for (const auto& effect : effects) scaled = scaled || effect.hypothesis->friction;
+  for (std::size_t run = 0; run < tracks_.size(); ++run) {
+    const Track& track = tracks_[run];
+    Contribution factors;
+    if (scaled) {
+      const Baseline none;
+      std::vector<Active> scaling;
+      for (const auto& effect : effects)
+        if (effect.hypothesis->friction) scaling.push_back(effect);
+      factors = contribution_of(scaling, {track, axis, none});
+    }
+    ContactForces out{Vector::Zero(track.size), Vector::Zero(track.size)};
+    double screw_m = 0.0, guide_m = 0.0;
+    const double h = track.sample_s / path_substeps, per_h = 1.0 / h;
+    const bool apart = track.slip_m.size() > 0;
+    for (Index k = 0; k < track.size; ++k) {
+      plant::FrictionScale<double> scaling;
+      if (factors.screw_sliding.size() > 0) scaling.screw_sliding = std::max(0.05, factors.screw_sliding[k]);
+      if (factors.screw_viscous.size() > 0) scaling.screw_viscous = std::max(0.05, factors.screw_viscous[k]);
+      for (Index i = k * path_substeps; i < (k + 1) * path_substeps; ++i) {
+        const auto along = [&](double v) { return plant::Sliding<double>{v < 0.0 ? -1.0 : 1.0, std::abs(v), h, per_h}; };
+        auto step = both.step(along(track.path_m_per_s[i]), screw_m, guide_m, scaling);
+        out.screw_N[k] += step.screw_force_N / path_substeps;
+        screw_m = step.screw_bristle_m;
+        if (apart) step = both.step(along(track.table_path_m_per_s[i]), screw_m, guide_m, scaling);
+        out.guide_N[k] += step.guide_force_N / path_substeps;
+        guide_m = step.guide_bristle_m;
+      }
+    }
+    forces.push_back(std::move(out));
+  }
+  return forces;
+}
+
+Baseline InverseModel::baseline(const plant::AxisParameters& axis, const ContactForces& contacts, std::size_t run) const {
+  const Track& track = tracks_[run];
+  const auto model = plant::make_axis_model(axis);
+  Baseline base;
+  Vector motor(track.size), viscous(track.size), power(track.size);
+  const auto& electrical = axis.motor;
+  for (Index k = 0; k < track.size; ++k) {
+    const double v = track.velocity_m_per_s[k];
+    const bool forward = v > 0.0;
+    const double coulomb = forward ? model.coulomb_pos_N : model.coulomb_neg_N;
+    motor[k] = coulomb * std::tanh(v / standstill_m_per_s) +
+               (forward ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m) * v;
+    viscous[k] = (forward ? axis.ball_screw.viscous_Ns_per_m.pos : axis.ball_screw.viscous_Ns_per_m.neg) * v;
+    const auto& linear = electrical.electrical_linear_Ws_per_m;
+    const auto& quadratic = electrical.electrical_quadratic_Ws2_per_m2;
+    power[k] = electrical.electrical_idle_W + (forward ? linear.pos : linear.neg) * std::abs(v) +
+               (forward ? quadratic.pos : quadratic.neg) * v * v + track.held_N[k] * v;
+  }
+  base.motor_N = about_sample(motor);
+  base.screw_viscous_N = about_sample(viscous);
+  base.screw_N = about_sample(contacts.screw_N);
+  base.guide_N = about_sample(contacts.guide_N);
+  base.power_W = std::move(power);
+  return base;
+}
+
+Vector InverseModel::recorded_side(const Equation& equation, std::size_t run) const {
+  const Track& track = tracks_[run];
+  if (equation.slip) return track.slip_m;
+  Vector y = equation.motor ? track.command_N : (equation.screw ? track.torque_sensor_N : track.force_sensor_N);
+  if (equation.motor && !equation.screw) y -= track.torque_sensor_N;
+  if (equation.screw && !equation.guide) y -= track.force_sensor_N;
+  return y;
+}
+
+Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
+                                  const Contribution& extra, const Baseline& base) const {
+  const Track& track = tracks_[run];
+  if (equation.power) {
+    Vector model = base.power_W;
+    if (extra.power_W.size() > 0) model += extra.power_W;
+    if (extra.drive_N.size() > 0) model += extra.drive_N.cwiseProduct(track.velocity_m_per_s);
+    return model;
+  }
+  Vector r = recorded_side(equation, run);
+  if (equation.slip) {
+    subtract(r, extra.slip_m);
+    return r;
+  }
+  const double k = 2.0 * std::numbers::pi / axis.axis.lead_m;
+  double mass = 0.0;  // that moves with the motor
+  if (equation.screw) {
+    mass += axis.ball_screw_inertia_kgm2 * k * k;
+    r -= base.screw_N;
+    subtract(r, extra.screw_N);
+    if (!equation.motor) subtract(r, extra.torque_sensor_N);
+    if (!equation.guide && extra.force_sensor_N.size() > 0) r += extra.force_sensor_N;
+  }
+  if (equation.guide) {
+    r -= axis.guide_mass_kg * track.table_acceleration_m_per_s2;
+    r -= base.guide_N;
+    subtract(r, extra.guide_N);
+    if (!equation.screw) subtract(r, extra.force_sensor_N);
+  }
+  if (equation.motor) {
+    mass += axis.motor.inertia_kgm2 * k * k;
+    if (!equation.screw && extra.torque_sensor_N.size() > 0) r += extra.torque_sensor_N;
+    subtract(r, extra.motor_N);
+    if (extra.drive_N.size() > 0) r += extra.drive_N;
+  }
+  r -= mass * track.acceleration_m_per_s2;
+  if (!equation.motor) return r;
+  // the motor's Coulomb friction: as it must be in motion, whatever is needed within its bounds at rest
+  const auto slow = [&](Index at) {
+    const Index i = std::clamp<Index>(at, 0, track.size - 1);
+    return std::abs(track.centred_m_per_s[i]) < standstill_m_per_s;
+  };
+  for (Index i = 0; i < track.size; ++i) {
+    const bool at_rest = slow(i) || slow(i - 1) || slow(i + 1);
+    r[i] -= at_rest ? std::clamp(r[i], -axis.motor.coulomb_N.neg, axis.motor.coulomb_N.pos) : base.motor_N[i];
+  }
+  return r;
+}
+
+void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows) const {
+  const Track& track = tracks_[segment.run];
+  if (equations_[segment.equation].power) {
+    for (Index i = 0; i < segment.size; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      rows[segment.start + i] = raw.segment(track.meter.starts[at], track.meter.length).mean();
+    }
+    return;
+  }
+  const auto& kernel = low_pass();
+  const Eigen::Map<const Vector> weights(kernel.data(), taps);
+  for (Index i = 0; i < segment.size; ++i)
+    rows[segment.start + i] = weights.dot(raw.segment(margin + i * decimation - static_cast<Index>(taps / 2), taps));
+}
+
+Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vector<Active>& effects,
+                              const std::vector<ContactForces>& contacts) const {
+  Vector rows(rows_);
+  for (std::size_t run = 0; run < tracks_.size(); ++run) {
+    const Baseline base = baseline(axis, contacts[run], run);
+    const Contribution extra = contribution_of(effects, {tracks_[run], axis, base});
+    for (const auto& segment : segments_) {
+      if (segment.run != run || segment.size == 0) continue;
+      const auto& equation = equations_[segment.equation];
+      store(segment, raw_residual(equation, run, axis, extra, base), rows);
+      if (!equation.power) continue;
+      auto part = rows.segment(segment.start, segment.size);
+      part = Eigen::Map<const Vector>(tracks_[run].meter.power_W.data(), segment.size) - part;
+    }
+  }
+  return rows;
+}
+
+Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vector<Active>& effects) const {
+  return residual(axis, effects, contacts(axis, effects));
+}
+
+Vector InverseModel::recorded() const {
+  Vector rows(rows_);
+  for (const auto& segment : segments_) {
+    if (equations_[segment.equation].power)
+      rows.segment(segment.start, segment.size) =
+          Eigen::Map<const Vector>(tracks_[segment.run].meter.power_W.data(), segment.size);
+    else
+      store(segment, recorded_side(equations_[segment.equation], segment.run), rows);
+  }
+  return rows;
+}
+
+}  // namespace feedtwin::tools::diagnosis

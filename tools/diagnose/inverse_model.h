@@ -1,0 +1,80 @@
+#pragma once
+// The forces that the model needs for the recorded motion, against the recorded ones, component by component:
+//
+//   motor   u - T_I   = M_motor a + F_M + B_M v              Eq. 12
+//   screw   T_I - F_I = M_screw a + F_B(x, v)                Eq. 13
+//   guide   F_I       = M_table a + F_L(x, v)                Eq. 14
+//   slip    scale - encoder = 0,   power = k_e0 + k_e1 |v| + k_e2 v^2 + u v      Eq. 11
+//
+// where a sensor is missing its neighbours' equations are added up. Friction is LuGre followed along the recorded motion
+// with the plant's own step. Recorded less modelled goes through one low pass and decimation, the same for every regressor.
+
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/hypothesis.h"
+#include "tools/diagnose/track.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// A hypothesis that is part of the model, with its working parameters.
+struct Active {
+  const Hypothesis* hypothesis = nullptr;
+  std::vector<double> q;
+};
+
+struct Equation {
+  std::string name;  ///< "motor", "screw+guide", "motor+screw+guide", "slip", "power"
+  bool motor = false, screw = false, guide = false, slip = false, power = false;
+};
+
+/// Rows of one equation in one run.
+struct Segment {
+  std::size_t equation = 0, run = 0;
+  Index start = 0, size = 0;
+};
+
+/// Forces of both contacts along one run, mean over the sample that follows.
+struct ContactForces {
+  Vector screw_N, guide_N;
+};
+
+class InverseModel {
+ public:
+  explicit InverseModel(std::vector<Track> tracks);
+
+  [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
+  [[nodiscard]] const std::vector<Equation>& equations() const { return equations_; }
+  [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
+  [[nodiscard]] Index rows() const { return rows_; }
+  [[nodiscard]] bool power_recorded() const { return power_; }
+  /// Samples between two rows of a force equation, and how many are dropped at either end.
+  static constexpr Index decimation = 4, margin = 24;
+  /// The sample at which a row stands.
+  [[nodiscard]] Index sample_of(const Segment& segment, Index row) const;
+
+  /// Friction of both contacts along every run, under the effects' factors.
+  [[nodiscard]] std::vector<ContactForces> contacts(const plant::AxisParameters& axis,
+                                                    const std::vector<Active>& effects) const;
+  /// Recorded less modelled, all rows. `contacts` from the function above (or of an equal model).
+  [[nodiscard]] Vector residual(const plant::AxisParameters& axis, const std::vector<Active>& effects,
+                                const std::vector<ContactForces>& contacts) const;
+  [[nodiscard]] Vector residual(const plant::AxisParameters& axis, const std::vector<Active>& effects) const;
+  /// What is recorded, through the same low pass.
+  [[nodiscard]] Vector recorded() const;
+  [[nodiscard]] Baseline baseline(const plant::AxisParameters& axis, const ContactForces& contacts, std::size_t run) const;
+
+ private:
+  [[nodiscard]] Vector raw_residual(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
+                                    const Contribution& extra, const Baseline& base) const;
+  [[nodiscard]] Vector recorded_side(const Equation& equation, std::size_t run) const;
+  void store(const Segment& segment, const Vector& raw, Vector& rows) const;
+
+  std::vector<Track> tracks_;
+  std::vector<Equation> equations_;
+  std::vector<Segment> segments_;
+  Index rows_ = 0;
+  bool power_ = false;
+};
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,141 @@
+#include "tools/diagnose/screen.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tools/diagnose/parallel.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr Index surrogates = 199;
+constexpr Index block_rows = 50;  // 0.2 s: longer than a reversal's burst
+
+/// The whitened residual with the sign of each block at random: its local strength stays, its relation to any regressor
+/// goes.
+Eigen::MatrixXd surrogate_matrix(const InverseModel& model, const Vector& white, Index rows) {
+  std::mt19937 random(20140501);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, surrogates);
+  for (Index s = 0; s < surrogates; ++s)
+    for (const auto& segment : model.segments()) {
+      const Index block = model.equations()[segment.equation].power ? 1 : block_rows;
+      for (Index k = 0; k < segment.size; k += block) {
+        const Index size = std::min(block, segment.size - k);
+        const double sign = (random() & 1U) != 0U ? 1.0 : -1.0;
+        out.col(s).segment(segment.start + k, size) = sign * white.segment(segment.start + k, size);
+      }
+    }
+  return out;
+}
+
+struct Task {
+  const Hypothesis* hypothesis;
+  const std::vector<double>* shape;
+};
+
+std::vector<double> with_shape(const Hypothesis& hypothesis, const std::vector<double>& shape) {
+  std::vector<double> q(hypothesis.parameters.size(), 0.0);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    if (hypothesis.parameters[i].kind != Kind::amplitude) q[i] = shape[next++];
+  return q;
+}
+
+}  // namespace
+
+double Screen::p_false_alarm(double standard) const {
+  const auto above = static_cast<double>(chance.end() - std::lower_bound(chance.begin(), chance.end(), standard));
+  if (above > 0.0) return (1.0 + above) / (1.0 + static_cast<double>(chance.size()));
+  // beyond all surrogates: the tail of the extreme value distribution with their mean and variance
+  double mean = 0.0, square = 0.0;
+  for (double value : chance) mean += value / static_cast<double>(chance.size());
+  for (double value : chance) square += (value - mean) * (value - mean) / static_cast<double>(chance.size());
+  const double scale = std::sqrt(6.0 * square) / std::numbers::pi + 1e-12;
+  const double y = (standard - (mean - 0.5772156649 * scale)) / scale;
+  return std::min(1.0 / (1.0 + static_cast<double>(chance.size())), 1.0 - std::exp(-std::exp(-y)));
+}
+
+Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) {
+  const InverseModel& model = fitter.model();
+  const Index rows = fit.white.size();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.jacobian);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
+  const Vector left = fit.white - q * (q.transpose() * fit.white);
+  Eigen::MatrixXd by_chance = surrogate_matrix(model, left, rows);
+
+  const auto contacts = model.contacts(fit.model.axis, fit.model.effects);
+  std::vector<Task> tasks;
+  for (const auto& hypothesis : hypotheses()) {
+    const bool present =
+        std::ranges::any_of(fit.model.effects, [&](const Active& a) { return a.hypothesis == &hypothesis; });
+    if (present) continue;
+    for (const auto& shape : hypothesis.shapes) tasks.push_back({&hypothesis, &shape});
+  }
+  std::vector<Score> found(tasks.size());
+  Eigen::MatrixXd gains(static_cast<Index>(tasks.size()), surrogates);
+  parallel_for(tasks.size(), [&](std::size_t t) {
+    const Hypothesis& hypothesis = *tasks[t].hypothesis;
+    std::vector<double> at = with_shape(hypothesis, *tasks[t].shape);
+    std::vector<std::size_t> amplitudes;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (hypothesis.parameters[i].kind == Kind::amplitude) amplitudes.push_back(i);
+    Eigen::MatrixXd columns(rows, static_cast<Index>(amplitudes.size()));
+    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
+      Candidate near = fit.model;
+      near.effects.push_back({&hypothesis, at});
+      const double step = hypothesis.parameters[amplitudes[a]].step;
+      near.effects.back().q[amplitudes[a]] = step;
+      const Vector r =
+          hypothesis.friction ? model.residual(near.axis, near.effects) : model.residual(near.axis, near.effects, contacts);
+      Vector column = Vector::Zero(rows);
+      column.head(r.size()) = whitening.applied(model, fit.residual - r) / step;
+      columns.col(static_cast<Index>(a)) = column;
+    }
+    const Vector before = columns.colwise().norm();
+    columns -= q * (q.transpose() * columns);
+    const Vector after = columns.colwise().norm();
+    found[t] = {&hypothesis, at, 0.0, 0.0};
+    gains.row(static_cast<Index>(t)).setZero();
+    Eigen::MatrixXd basis = columns;
+    Index kept = 0;
+    for (Index c = 0; c < columns.cols(); ++c) {
+      Vector v = columns.col(c);
+      for (Index j = 0; j < kept; ++j) v -= basis.col(j).dot(v) * basis.col(j);
+      if (!(v.norm() > 1e-3 * before[c]) || !(before[c] > 0.0)) continue;  // nothing the model's own numbers could not do
+      basis.col(kept++) = v.normalized();
+    }
+    if (kept == 0) return;
+    const auto used = basis.leftCols(kept);
+    found[t].gain = (used.transpose() * left).squaredNorm();
+    gains.row(static_cast<Index>(t)) = (used.transpose() * by_chance).colwise().squaredNorm();
+    const Vector amplitude = columns.colPivHouseholderQr().solve(left);
+    for (std::size_t a = 0; a < amplitudes.size(); ++a) found[t].q[amplitudes[a]] = amplitude[static_cast<Index>(a)];
+  });
+
+  Screen result;
+  Eigen::VectorXd largest = Eigen::VectorXd::Constant(surrogates, -1e300);
+  for (std::size_t t = 0; t < tasks.size();) {
+    std::size_t end = t;
+    Eigen::VectorXd best = Eigen::VectorXd::Zero(surrogates);
+    Score score = found[t];
+    for (; end < tasks.size() && tasks[end].hypothesis == tasks[t].hypothesis; ++end) {
+      best = best.cwiseMax(gains.row(static_cast<Index>(end)).transpose());
+      if (found[end].gain > score.gain) score = found[end];
+    }
+    const double mean = best.mean();
+    const double spread = std::sqrt((best.array() - mean).square().mean()) + 1e-9;
+    score.standard = (score.gain - mean) / spread;
+    largest = largest.cwiseMax(((best.array() - mean) / spread).matrix());
+    result.scores.push_back(score);
+    t = end;
+  }
+  std::ranges::sort(result.scores, [](const Score& a, const Score& b) { return a.gain > b.gain; });
+  result.chance.assign(largest.data(), largest.data() + largest.size());
+  std::ranges::sort(result.chance);
+  return result;
+}
+
+}  // namespace feedtwin::tools::diagnosis

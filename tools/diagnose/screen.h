@@ -1,0 +1,28 @@
+#pragma once
+// Every hypothesis against what the present model leaves over: how much of it each would explain with the model's numbers
+// floating, and how much the best of all would explain by chance on surrogates of that residual.
+
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/fit.h"
+
+namespace feedtwin::tools::diagnosis {
+
+struct Score {
+  const Hypothesis* hypothesis = nullptr;
+  std::vector<double> q;  ///< best shape with its linear amplitudes
+  double gain = 0.0;      ///< fall of the cost
+  double standard = 0.0;  ///< gain less its mean on surrogates, in their standard deviations
+};
+
+struct Screen {
+  std::vector<Score> scores;   ///< best first, one a hypothesis
+  std::vector<double> chance;  ///< the largest standard score of each surrogate, sorted
+  /// Chance that the best of all hypotheses scores this on the record's own residual with no effect in it.
+  [[nodiscard]] double p_false_alarm(double standard) const;
+};
+
+[[nodiscard]] Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening);
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,59 @@
+#pragma once
+// One recorded run as the inverse model sees it: everything at the samples, forces as forces at the table.
+//
+// The command is held for one sample, so over two samples the momentum balance is exact in the form
+//   M (x[k+1] - 2 x[k] + x[k-1]) / h^2 = (u[k-1] + u[k]) / 2 - mean of the resisting force over the two samples,
+//   triangularly weighted
+// and no half-sample delay enters.
+
+#include <Eigen/Core>
+#include <string>
+
+#include "plant/parameters.h"
+#include "tools/recording/recording.h"
+
+namespace feedtwin::tools::diagnosis {
+
+using Vector = Eigen::VectorXd;
+using Index = Eigen::Index;
+
+/// Sub-steps a sample along which friction is followed.
+inline constexpr int path_substeps = 4;
+/// Below this speed the motor's Coulomb friction may hold the axis: its force is then anything within its bounds.
+inline constexpr double standstill_m_per_s = 2e-4;
+
+/// Readings of a power meter that shows means over windows.
+struct MeterWindows {
+  Index length = 0;  ///< samples a window
+  std::vector<Index> starts;
+  std::vector<double> power_W;
+};
+
+struct Track {
+  std::string name;     ///< of the file
+  std::size_t run = 0;  ///< among those of the case
+  double sample_s = 1e-3;
+  Index size = 0;
+  Vector command_N;         ///< mean of the command before and after the sample
+  Vector held_N;            ///< command in force after the sample
+  Vector position_m;        ///< lightly smoothed
+  Vector velocity_m_per_s;  ///< mean over the sample that follows
+  Vector centred_m_per_s;   ///< velocity at the sample
+  Vector acceleration_m_per_s2;
+  Vector path_m_per_s;  ///< velocities of the sub-steps, path_substeps a sample
+  /// The table's own motion: the linear scale's where there is one, otherwise the motor's.
+  Vector table_position_m, table_velocity_m_per_s, table_acceleration_m_per_s2, table_path_m_per_s;
+  Vector since_reversal_s;  ///< time since the direction changed
+  Vector dwell_s;           ///< length of the last standstill, from its end on
+  Vector torque_sensor_N;   ///< empty where not recorded; likewise below
+  Vector force_sensor_N;
+  Vector slip_m;  ///< linear scale less motor encoder
+  MeterWindows meter;
+};
+
+[[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);
+
+/// Mean over the sample before and the sample after: from forces over a sample to forces about it.
+[[nodiscard]] Vector about_sample(const Vector& after);
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,27 @@
+#pragma once
+// The residual's own colour, taken off it and off every regressor: an autoregression an equation, pooled over the runs.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tools/diagnose/inverse_model.h"
+
+namespace feedtwin::tools::diagnosis {
+
+class Whitening {
+ public:
+  /// Yule-Walker on the residual with its bursts clipped, so that they don't set its colour.
+  static Whitening estimate(const InverseModel& model, const Vector& residual);
+
+  /// In place: the innovations in units of their standard deviation.
+  void apply(const InverseModel& model, Eigen::Ref<Eigen::MatrixXd> columns) const;
+  [[nodiscard]] Vector applied(const InverseModel& model, const Vector& column) const;
+  /// Standard deviation of an equation's residual, bursts clipped, in its own unit.
+  [[nodiscard]] double residual_rms(std::size_t equation) const { return rms_[equation]; }
+
+ private:
+  std::vector<Vector> coefficients_;  ///< r[k] = sum a_j r[k-j] + e[k]
+  std::vector<double> sigma_, rms_;
+};
+
+}  // namespace feedtwin::tools::diagnosis
