@@ -1,5 +1,6 @@
 #include <array>
 
+#include "tools/diagnose.h"
 #include "tools/latency/latency.h"
 #include "tools/serve.h"
 #include "tools/simulate.h"
@@ -13,6 +14,8 @@ std::span<const Verb> verbs() noexcept {
       Verb{"simulate", "controller and plant off line, faster than real time, deterministic; writes a recording",
            prepare_simulate},
       Verb{"latency", "wake-up, tick and input-to-output latency of this host, beside cyclictest", prepare_latency},
+      Verb{"diagnose", "locates the mismatch, names the missing physics, models it, shows the fit before and after",
+           prepare_diagnose},
   };
   return all;
 }

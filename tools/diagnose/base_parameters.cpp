@@ -8,7 +8,7 @@ std::vector<BaseParameter> base_parameters(bool power_recorded) {
   std::vector<BaseParameter> found;
   for (const auto& entry : plant::parameter_table()) {
     const auto key = entry.key;
-    const bool axis = key.starts_with("axis.");
+    const bool axis = key.starts_with("axis.") || key.starts_with("power.");
     const bool electrical = key.starts_with("motor.ke");
     if (axis || key == "motor.rated_torque_Nm" || (electrical && !power_recorded)) continue;
     const bool contact = key.starts_with("ball_screw.") || key.starts_with("guide.");

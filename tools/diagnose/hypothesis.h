@@ -34,6 +34,7 @@ struct Contribution {
   Vector torque_sensor_N, force_sensor_N;  ///< a sensor's reading beyond the truth
   Vector slip_m;                           ///< linear scale less motor encoder
   Vector power_W;                          ///< drive input beyond the model
+  double table_mass_kg = 0.0;              ///< more mass on the table
   Vector screw_sliding, screw_viscous;     ///< factors on F_C and F_S, on mu, along the run
 };
 

@@ -63,10 +63,28 @@ void subtract(Vector& from, const Vector& what) {
   if (what.size() > 0) from -= what;
 }
 
+/// The triangular mean over a sample to either side of what is known at the samples.
+Vector meant(const Vector& at) {
+  Vector out = at;
+  const Index n = at.size();
+  if (n > 2) out.segment(1, n - 2) += (at.head(n - 2) - 2.0 * at.segment(1, n - 2) + at.tail(n - 2)) / 12.0;
+  return out;
+}
+
+bool touches(const Contribution& c, const Equation& equation) {
+  const auto set = [](const Vector& v) { return v.size() > 0; };
+  if (equation.slip) return set(c.slip_m);
+  if (equation.power) return set(c.power_W) || set(c.drive_N);
+  const bool own = (equation.motor && (set(c.motor_N) || set(c.drive_N))) || (equation.screw && set(c.screw_N)) ||
+                   (equation.guide && (set(c.guide_N) || c.table_mass_kg != 0.0));
+  const bool torque = equation.motor != equation.screw, force = equation.screw != equation.guide;
+  return own || (torque && set(c.torque_sensor_N)) || (force && set(c.force_sensor_N));
+}
+
 }  // namespace
 
-InverseModel::InverseModel(std::vector<Track> tracks)
-    : tracks_(std::move(tracks)), equations_(equations_for(tracks_.front())) {
+InverseModel::InverseModel(std::vector<Track> tracks, const plant::AxisParameters& nominal)
+    : tracks_(std::move(tracks)), nominal_(nominal), equations_(equations_for(tracks_.front())) {
   for (std::size_t e = 0; e < equations_.size(); ++e)
     for (std::size_t r = 0; r < tracks_.size(); ++r) {
       const Track& track = tracks_[r];
@@ -76,6 +94,39 @@ InverseModel::InverseModel(std::vector<Track> tracks)
       rows_ += size;
       power_ = power_ || equations_[e].power;
     }
+  weigh_noise();
+}
+
+void InverseModel::weigh_noise() {
+  const auto model = plant::make_axis_model(nominal_);
+  const auto white_sigma = [](const Vector& x) {  // from third differences, robust
+    std::vector<double> d;
+    for (Index k = 3; k < x.size(); ++k) d.push_back(std::abs(x[k] - 3.0 * x[k - 1] + 3.0 * x[k - 2] - x[k - 3]));
+    if (d.empty()) return 0.0;
+    const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
+    std::nth_element(d.begin(), middle, d.end());
+    return 1.4826 * *middle / std::sqrt(20.0);
+  };
+  const auto& kernel = low_pass();
+  double flat = 0.0, twice = 0.0;  // what the low pass leaves of white noise, and of its second difference
+  for (std::size_t i = 0; i < taps + 2; ++i) {
+    const auto tap = [&](std::size_t j) { return j < taps ? kernel[j] : 0.0; };
+    const double second = tap(i) - 2.0 * (i > 0 ? tap(i - 1) : 0.0) + (i > 1 ? tap(i - 2) : 0.0);
+    flat += tap(i) * tap(i);
+    twice += second * second;
+  }
+  const Track& track = tracks_.front();
+  const double grid_m = nominal_.axis.lead_m / nominal_.axis.encoder_counts_per_rev;
+  const double acceleration = twice * grid_m * grid_m / 12.0 / std::pow(track.sample_s, 4);
+  const double torque = flat * std::pow(white_sigma(track.torque_sensor_N), 2),
+               force = flat * std::pow(white_sigma(track.force_sensor_N), 2);
+  for (const auto& equation : equations_) {
+    const double mass =
+        equation.motor * model.motor_mass_kg + equation.screw * model.screw_mass_kg + equation.guide * model.table_mass_kg;
+    const double moved = acceleration * mass * mass;
+    const double sensed = (equation.motor != equation.screw) * torque + (equation.screw != equation.guide) * force;
+    acceleration_share_.push_back(moved / (moved + sensed + 1e-300));
+  }
 }
 
 Index InverseModel::sample_of(const Segment& segment, Index row) const {
@@ -174,28 +225,42 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
     return r;
   }
   const double k = 2.0 * std::numbers::pi / axis.axis.lead_m;
-  double mass = 0.0;  // that moves with the motor
+  const double motor_kg = axis.motor.inertia_kgm2 * k * k, screw_kg = axis.ball_screw_inertia_kgm2 * k * k;
+  const double table_kg = axis.guide_mass_kg + extra.table_mass_kg;
+  const double per_mass = 1.0 / (motor_kg + screw_kg + table_kg);
+  if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * track.half_step_N;
+  if (equation.screw != equation.guide) r += (equation.screw ? 1.0 : -1.0) * table_kg * per_mass * track.half_step_N;
+  double mass = 0.0, nominal_mass = 0.0;
   if (equation.screw) {
-    mass += axis.ball_screw_inertia_kgm2 * k * k;
+    mass += screw_kg;
+    nominal_mass += nominal_.ball_screw_inertia_kgm2 * k * k;
+    r -= screw_kg * track.acceleration_m_per_s2;
     r -= base.screw_N;
-    subtract(r, extra.screw_N);
+    subtract(r, meant(extra.screw_N));
     if (!equation.motor) subtract(r, extra.torque_sensor_N);
     if (!equation.guide && extra.force_sensor_N.size() > 0) r += extra.force_sensor_N;
   }
   if (equation.guide) {
-    r -= axis.guide_mass_kg * track.table_acceleration_m_per_s2;
+    mass += table_kg;
+    nominal_mass += nominal_.guide_mass_kg;
+    r -= table_kg * track.table_acceleration_m_per_s2;
     r -= base.guide_N;
-    subtract(r, extra.guide_N);
+    subtract(r, meant(extra.guide_N));
     if (!equation.screw) subtract(r, extra.force_sensor_N);
   }
   if (equation.motor) {
-    mass += axis.motor.inertia_kgm2 * k * k;
+    mass += motor_kg;
+    nominal_mass += nominal_.motor.inertia_kgm2 * k * k;
+    r -= motor_kg * track.acceleration_m_per_s2;
     if (!equation.screw && extra.torque_sensor_N.size() > 0) r += extra.torque_sensor_N;
-    subtract(r, extra.motor_N);
+    subtract(r, meant(extra.motor_N));
     if (extra.drive_N.size() > 0) r += extra.drive_N;
   }
-  r -= mass * track.acceleration_m_per_s2;
-  if (!equation.motor) return r;
+  // Part of the noise is the measured acceleration's and grows with the mass: without this weight a smaller mass would
+  // shrink it.
+  const double share = acceleration_share_[static_cast<std::size_t>(&equation - equations_.data())];
+  const double weight = 1.0 / std::sqrt(1.0 - share + share * (mass / nominal_mass) * (mass / nominal_mass));
+  if (!equation.motor) return weight * r;
   // the motor's Coulomb friction: as it must be in motion, whatever is needed within its bounds at rest
   const auto slow = [&](Index at) {
     const Index i = std::clamp<Index>(at, 0, track.size - 1);
@@ -205,7 +270,7 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
     const bool at_rest = slow(i) || slow(i - 1) || slow(i + 1);
     r[i] -= at_rest ? std::clamp(r[i], -axis.motor.coulomb_N.neg, axis.motor.coulomb_N.pos) : base.motor_N[i];
   }
-  return r;
+  return weight * r;
 }
 
 void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows) const {
@@ -213,7 +278,7 @@ void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows
   if (equations_[segment.equation].power) {
     for (Index i = 0; i < segment.size; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      rows[segment.start + i] = raw.segment(track.meter.starts[at], track.meter.length).mean();
+      rows[segment.start + i] = track.meter.power_W[at] - raw.segment(track.meter.starts[at], track.meter.length).mean();
     }
     return;
   }
@@ -223,19 +288,43 @@ void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows
     rows[segment.start + i] = weights.dot(raw.segment(margin + i * decimation - static_cast<Index>(taps / 2), taps));
 }
 
+InverseModel::Prepared InverseModel::prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,
+                                              const std::vector<ContactForces>& contacts) const {
+  Prepared model;
+  for (std::size_t run = 0; run < tracks_.size(); ++run) {
+    model.base.push_back(baseline(axis, contacts[run], run));
+    model.extra.push_back(contribution_of(effects, {tracks_[run], axis, model.base.back()}));
+  }
+  return model;
+}
+
 Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vector<Active>& effects,
                               const std::vector<ContactForces>& contacts) const {
+  const Prepared model = prepared(axis, effects, contacts);
   Vector rows(rows_);
+  for (const auto& segment : segments_)
+    if (segment.size > 0)
+      store(segment,
+            raw_residual(equations_[segment.equation], segment.run, axis, model.extra[segment.run], model.base[segment.run]),
+            rows);
+  return rows;
+}
+
+Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
+                          const Active& more) const {
+  Vector rows = Vector::Zero(rows_);
   for (std::size_t run = 0; run < tracks_.size(); ++run) {
-    const Baseline base = baseline(axis, contacts[run], run);
-    const Contribution extra = contribution_of(effects, {tracks_[run], axis, base});
+    const View view{tracks_[run], axis, model.base[run]};
+    Contribution alone;
+    more.hypothesis->apply(view, more.q, alone);
+    Contribution sum = model.extra[run];
+    more.hypothesis->apply(view, more.q, sum);
     for (const auto& segment : segments_) {
-      if (segment.run != run || segment.size == 0) continue;
       const auto& equation = equations_[segment.equation];
-      store(segment, raw_residual(equation, run, axis, extra, base), rows);
-      if (!equation.power) continue;
+      if (segment.run != run || segment.size == 0 || !touches(alone, equation)) continue;
+      store(segment, raw_residual(equation, run, axis, sum, model.base[run]), rows);
       auto part = rows.segment(segment.start, segment.size);
-      part = Eigen::Map<const Vector>(tracks_[run].meter.power_W.data(), segment.size) - part;
+      part = residual.segment(segment.start, segment.size) - part;
     }
   }
   return rows;

@@ -41,7 +41,7 @@ struct ContactForces {
 
 class InverseModel {
  public:
-  explicit InverseModel(std::vector<Track> tracks);
+  InverseModel(std::vector<Track> tracks, const plant::AxisParameters& nominal);
 
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
   [[nodiscard]] const std::vector<Equation>& equations() const { return equations_; }
@@ -53,9 +53,20 @@ class InverseModel {
   /// The sample at which a row stands.
   [[nodiscard]] Index sample_of(const Segment& segment, Index row) const;
 
-  /// Friction of both contacts along every run, under the effects' factors.
+  /// Friction of both contacts along every run, under the effects' factors: the costly part of a residual.
   [[nodiscard]] std::vector<ContactForces> contacts(const plant::AxisParameters& axis,
                                                     const std::vector<Active>& effects) const;
+  /// What else a model says along every run.
+  struct Prepared {
+    std::vector<Baseline> base;
+    std::vector<Contribution> extra;
+  };
+  [[nodiscard]] Prepared prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,
+                                  const std::vector<ContactForces>& contacts) const;
+  /// Fall of the residual when one more effect that does not change friction joins a prepared model. Only what it touches is
+  /// computed; `residual` is the prepared model's own.
+  [[nodiscard]] Vector fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
+                            const Active& more) const;
   /// Recorded less modelled, all rows. `contacts` from the function above (or of an equal model).
   [[nodiscard]] Vector residual(const plant::AxisParameters& axis, const std::vector<Active>& effects,
                                 const std::vector<ContactForces>& contacts) const;
@@ -68,11 +79,15 @@ class InverseModel {
   [[nodiscard]] Vector raw_residual(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
                                     const Contribution& extra, const Baseline& base) const;
   [[nodiscard]] Vector recorded_side(const Equation& equation, std::size_t run) const;
+  /// Standard deviation of the measured acceleration about a smooth one, and the share of an equation's noise that it makes.
+  void weigh_noise();
   void store(const Segment& segment, const Vector& raw, Vector& rows) const;
 
   std::vector<Track> tracks_;
+  plant::AxisParameters nominal_;
   std::vector<Equation> equations_;
   std::vector<Segment> segments_;
+  std::vector<double> acceleration_share_;  ///< of each equation's noise variance
   Index rows_ = 0;
   bool power_ = false;
 };

@@ -14,21 +14,23 @@ namespace {
 constexpr Index surrogates = 199;
 constexpr Index block_rows = 50;  // 0.2 s: longer than a reversal's burst
 
-/// The whitened residual with the sign of each block at random: its local strength stays, its relation to any regressor
-/// goes.
-Eigen::MatrixXd surrogate_matrix(const InverseModel& model, const Vector& white, Index rows) {
+/// Stretches of rows whose sign a surrogate draws at random: their strength stays, their relation to any regressor goes.
+std::vector<Segment> blocks_of(const InverseModel& model) {
+  std::vector<Segment> blocks;
+  for (const auto& segment : model.segments()) {
+    const Index block = model.equations()[segment.equation].power ? 1 : block_rows;
+    for (Index k = 0; k < segment.size; k += block)
+      blocks.push_back({segment.equation, segment.run, segment.start + k, std::min(block, segment.size - k)});
+  }
+  return blocks;
+}
+
+Eigen::MatrixXd random_signs(std::size_t blocks) {
   std::mt19937 random(20140501);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, surrogates);
+  Eigen::MatrixXd signs(static_cast<Index>(blocks), surrogates);
   for (Index s = 0; s < surrogates; ++s)
-    for (const auto& segment : model.segments()) {
-      const Index block = model.equations()[segment.equation].power ? 1 : block_rows;
-      for (Index k = 0; k < segment.size; k += block) {
-        const Index size = std::min(block, segment.size - k);
-        const double sign = (random() & 1U) != 0U ? 1.0 : -1.0;
-        out.col(s).segment(segment.start + k, size) = sign * white.segment(segment.start + k, size);
-      }
-    }
-  return out;
+    for (Index b = 0; b < signs.rows(); ++b) signs(b, s) = (random() & 1U) != 0U ? 1.0 : -1.0;
+  return signs;
 }
 
 struct Task {
@@ -58,15 +60,30 @@ double Screen::p_false_alarm(double standard) const {
   return std::min(1.0 / (1.0 + static_cast<double>(chance.size())), 1.0 - std::exp(-std::exp(-y)));
 }
 
+Active at_zero(const Score& score) {
+  Active active{score.hypothesis, score.q};
+  for (std::size_t i = 0; i < active.q.size(); ++i)
+    if (score.hypothesis->parameters[i].kind == Kind::amplitude) active.q[i] = 0.0;
+  return active;
+}
+
 Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) {
   const InverseModel& model = fitter.model();
   const Index rows = fit.white.size();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.jacobian);
   const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
   const Vector left = fit.white - q * (q.transpose() * fit.white);
-  Eigen::MatrixXd by_chance = surrogate_matrix(model, left, rows);
+  const auto blocks = blocks_of(model);
+  const Eigen::MatrixXd signs = random_signs(blocks.size());
 
   const auto contacts = model.contacts(fit.model.axis, fit.model.effects);
+  const auto prepared = model.prepared(fit.model.axis, fit.model.effects, contacts);
+  const auto fall_of = [&](const Active& more) -> Vector {
+    if (!more.hypothesis->friction) return model.fall(fit.model.axis, prepared, fit.residual, more);
+    auto effects = fit.model.effects;
+    effects.push_back(more);
+    return fit.residual - model.residual(fit.model.axis, effects);
+  };
   std::vector<Task> tasks;
   for (const auto& hypothesis : hypotheses()) {
     const bool present =
@@ -84,14 +101,11 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
       if (hypothesis.parameters[i].kind == Kind::amplitude) amplitudes.push_back(i);
     Eigen::MatrixXd columns(rows, static_cast<Index>(amplitudes.size()));
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {
-      Candidate near = fit.model;
-      near.effects.push_back({&hypothesis, at});
+      Active near{&hypothesis, at};
       const double step = hypothesis.parameters[amplitudes[a]].step;
-      near.effects.back().q[amplitudes[a]] = step;
-      const Vector r =
-          hypothesis.friction ? model.residual(near.axis, near.effects) : model.residual(near.axis, near.effects, contacts);
+      near.q[amplitudes[a]] = step;
       Vector column = Vector::Zero(rows);
-      column.head(r.size()) = whitening.applied(model, fit.residual - r) / step;
+      column.head(model.rows()) = whitening.applied(model, fall_of(near)) / step;
       columns.col(static_cast<Index>(a)) = column;
     }
     const Vector before = columns.colwise().norm();
@@ -110,9 +124,19 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
     if (kept == 0) return;
     const auto used = basis.leftCols(kept);
     found[t].gain = (used.transpose() * left).squaredNorm();
-    gains.row(static_cast<Index>(t)) = (used.transpose() * by_chance).colwise().squaredNorm();
+    Eigen::MatrixXd by_block(kept, static_cast<Index>(blocks.size()));
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      by_block.col(static_cast<Index>(b)) =
+          used.middleRows(blocks[b].start, blocks[b].size).transpose() * left.segment(blocks[b].start, blocks[b].size);
+    gains.row(static_cast<Index>(t)) = (by_block * signs).colwise().squaredNorm();
     const Vector amplitude = columns.colPivHouseholderQr().solve(left);
-    for (std::size_t a = 0; a < amplitudes.size(); ++a) found[t].q[amplitudes[a]] = amplitude[static_cast<Index>(a)];
+    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
+      double& value = found[t].q[amplitudes[a]];
+      value = amplitude[static_cast<Index>(a)];
+      const auto& p = hypothesis.parameters[amplitudes[a]];
+      if (value < p.lowest || value > p.highest) found[t].gain = 0.0;  // the wrong sign, or beyond what can be
+    }
+    if (hypothesis.admissible != nullptr && !hypothesis.admissible(found[t].q, fit.model.axis)) found[t].gain = 0.0;
   });
 
   Screen result;

@@ -23,6 +23,9 @@ struct Screen {
   [[nodiscard]] double p_false_alarm(double standard) const;
 };
 
+/// The hypothesis with its best shape and no strength yet: where a joint fit starts from.
+[[nodiscard]] Active at_zero(const Score& score);
+
 [[nodiscard]] Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -152,12 +152,13 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   }
   follow_reversals(track);
 
-  // a sensor's instant against the balance's triangular mean: the mean of the line through the samples
-  const std::array<double, 3> triangle{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+  // A sensor reads at its instant and the balance is the triangular mean about it.
+  const std::array<double, 3> triangle{1.0 / 12.0, 10.0 / 12.0, 1.0 / 12.0};
   if (recording.has(channel::torque_sensor_Nm))
     track.torque_sensor_N = convolved(per_lead * as_vector(recording.at(channel::torque_sensor_Nm)), triangle);
   if (recording.has(channel::force_sensor_N))
     track.force_sensor_N = convolved(as_vector(recording.at(channel::force_sensor_N)), triangle);
+  track.half_step_N = convolved(track.held_N - track.command_N, triangle);
   if (recording.has(channel::power_W)) track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h);
   return track;
 }

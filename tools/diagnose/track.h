@@ -45,6 +45,8 @@ struct Track {
   Vector table_position_m, table_velocity_m_per_s, table_acceleration_m_per_s2, table_path_m_per_s;
   Vector since_reversal_s;  ///< time since the direction changed
   Vector dwell_s;           ///< length of the last standstill, from its end on
+  /// Command that sets in at the sample beyond its mean about it: the sensors read with it, the balance without.
+  Vector half_step_N;
   Vector torque_sensor_N;   ///< empty where not recorded; likewise below
   Vector force_sensor_N;
   Vector slip_m;  ///< linear scale less motor encoder

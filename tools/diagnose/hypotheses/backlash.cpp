@@ -35,9 +35,7 @@ Hypothesis backlash() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the table follows the motor with a play of {gap_m} m at every reversal",
-
           .confused_with = {"presliding_memory", "screw_compliance"},
           .friction = false};
 }

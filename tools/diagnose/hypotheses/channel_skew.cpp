@@ -31,9 +31,7 @@ Hypothesis channel_skew() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the force sensors are sampled {skew_s} s apart from the rest",
-
           .confused_with = {"input_delay", "current_loop_lag"},
           .friction = false};
 }

@@ -29,11 +29,9 @@ Hypothesis cogging() {
           .shapes = whole_orders(3, 48),
           .apply = apply,
           .named = named,
-
           .sentence =
               "the motor cogs: a torque of {amplitude_Nm} N m that repeats {cycles_per_rev} times a revolution whatever the "
               "current",
-
           .confused_with = {"torque_ripple", "rev_ripple", "encoder_eccentricity"},
           .friction = false};
 }

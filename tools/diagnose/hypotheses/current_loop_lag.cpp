@@ -37,9 +37,7 @@ Hypothesis current_loop_lag() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the drive's current loop lags: first order, {time_constant_s} s",
-
           .confused_with = {"input_delay", "channel_skew", "frictional_lag"},
           .friction = false};
 }

@@ -29,9 +29,7 @@ Hypothesis cyclic_lead_error() {
           .shapes = whole_orders(1, 4),
           .apply = apply,
           .named = named,
-
           .sentence = "the lead wavers by {amplitude_m} m, {cycles_per_rev} times a revolution",
-
           .confused_with = {"encoder_eccentricity"},
           .friction = false};
 }

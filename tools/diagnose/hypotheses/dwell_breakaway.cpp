@@ -41,7 +41,6 @@ Hypothesis dwell_breakaway() {
           .named = named,
           .admissible = possible,
           .sentence = "breakaway rises with the rest before it, by up to {force_N} N",
-
           .confused_with = {"presliding_memory"},
           .friction = false};
 }

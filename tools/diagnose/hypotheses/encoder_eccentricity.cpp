@@ -37,9 +37,7 @@ Hypothesis encoder_eccentricity() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the encoder runs out of true: it reads {amplitude_m} m too far once a revolution",
-
           .confused_with = {"cyclic_lead_error", "rev_ripple"},
           .friction = false};
 }

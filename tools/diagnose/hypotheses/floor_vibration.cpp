@@ -11,6 +11,7 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const std::size_t run = std::min<std::size_t>(view.track.run, 3);
+  if (q[2 * run] == 0.0 && q[2 * run + 1] == 0.0) return;
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
   add(sum.guide_N, wave(t, 1.0, q[8], q[2 * run], q[2 * run + 1]));
 }
@@ -40,9 +41,7 @@ Hypothesis floor_vibration() {
           .shapes = frequencies(),
           .apply = apply,
           .named = named,
-
           .sentence = "the floor shakes the table with {amplitude_N} N at {frequency_Hz} Hz",
-
           .confused_with = {"process_force"},
           .friction = false};
 }

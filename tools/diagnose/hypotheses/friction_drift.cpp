@@ -28,9 +28,7 @@ Hypothesis friction_drift() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "sliding friction drifts by {relative_rate_per_s} of itself a second",
-
           .confused_with = {"thermal_friction"},
           .friction = true};
 }

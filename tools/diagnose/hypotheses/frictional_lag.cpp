@@ -28,9 +28,7 @@ Hypothesis frictional_lag() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "friction follows speed with a lag of {lag_s} s",
-
           .confused_with = {"input_delay", "current_loop_lag"},
           .friction = false};
 }

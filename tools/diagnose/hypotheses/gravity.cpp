@@ -27,7 +27,6 @@ Hypothesis gravity() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "a constant {force_N} N acts on the table against positive motion",
           .number_of_the_model = true,
           .confused_with = {"torque_offset", "cable_spring", "direction_dependent_friction"},

@@ -27,9 +27,7 @@ Hypothesis input_delay() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the command acts {delay_s} s late",
-
           .confused_with = {"current_loop_lag", "channel_skew", "frictional_lag"},
           .friction = false};
 }

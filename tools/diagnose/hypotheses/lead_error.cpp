@@ -27,9 +27,7 @@ Hypothesis lead_error() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the lead is off by {relative_error} of itself",
-
           .confused_with = {"screw_growth"},
           .friction = false};
 }

@@ -34,7 +34,6 @@ Hypothesis load_dependent_friction() {
           .named = named,
           .admissible = possible,
           .sentence = "the screw's friction rises by {relative_per_N} of itself for each newton on the nut",
-
           .confused_with = {"torque_gain_error"},
           .friction = true};
 }

@@ -36,7 +36,6 @@ Hypothesis local_friction() {
           .named = named,
           .admissible = possible,
           .sentence = "a damaged spot at {position_m} m, {width_m} m wide, adds {force_N} N of friction",
-
           .confused_with = {"position_friction"},
           .friction = false};
 }

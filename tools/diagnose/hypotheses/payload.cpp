@@ -8,8 +8,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.guide_N, q[0] * view.track.table_acceleration_m_per_s2);
+void apply(const View& /*view*/, std::span<const double> q, Contribution& sum) {
+  sum.table_mass_kg += q[0];
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

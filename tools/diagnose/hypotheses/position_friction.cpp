@@ -29,11 +29,9 @@ Hypothesis position_friction() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence =
               "the screw's sliding friction grows along the stroke, by {relative_slope_per_half_stroke} of itself from the "
               "middle to the end",
-
           .confused_with = {"cable_spring", "local_friction"},
           .friction = true};
 }

@@ -27,9 +27,7 @@ Hypothesis power_meter_window() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the power meter shows what was {delay_s} s earlier",
-
           .confused_with = {"regeneration_clipped"},
           .friction = false};
 }

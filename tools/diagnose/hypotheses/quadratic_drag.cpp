@@ -9,8 +9,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.guide_N,
-      about_sample(q[0] * view.track.table_velocity_m_per_s.cwiseProduct(view.track.table_velocity_m_per_s.cwiseAbs())));
+  const Vector v = about_sample(view.track.table_velocity_m_per_s);
+  add(sum.guide_N, q[0] * v.cwiseProduct(v.cwiseAbs()));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -34,7 +34,6 @@ Hypothesis quadratic_drag() {
           .named = named,
           .admissible = possible,
           .sentence = "a drag grows with the square of speed: {coefficient_Ns2_per_m2} N s^2/m^2",
-
           .confused_with = {"sublinear_viscous"},
           .friction = false};
 }

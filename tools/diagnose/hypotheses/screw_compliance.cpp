@@ -32,9 +32,7 @@ Hypothesis screw_compliance() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "screw, nut and bearing yield: {stiffness_N_per_m} N/m between motor and table",
-
           .confused_with = {"backlash", "lead_error"},
           .friction = false};
 }

@@ -34,7 +34,6 @@ Hypothesis screw_growth() {
           .named = named,
           .admissible = possible,
           .sentence = "the screw grows by {relative_rate_per_s} of its length a second",
-
           .confused_with = {"lead_error"},
           .friction = false};
 }

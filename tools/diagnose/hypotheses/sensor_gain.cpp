@@ -9,8 +9,14 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  if (view.track.torque_sensor_N.size() > 0) add(sum.torque_sensor_N, q[0] * view.track.torque_sensor_N);
-  if (view.track.force_sensor_N.size() > 0) add(sum.force_sensor_N, q[1] * view.track.force_sensor_N);
+  // of the force that the model says is there: the reading's own noise has no part in it
+  if (view.base.screw_N.size() == 0) return;
+  const Track& track = view.track;
+  const double k = per_lead(view.axis);
+  const Vector table = view.base.guide_N + view.axis.guide_mass_kg * track.table_acceleration_m_per_s2;
+  const Vector screw = table + view.base.screw_N + view.axis.ball_screw_inertia_kgm2 * k * k * track.acceleration_m_per_s2;
+  if (track.torque_sensor_N.size() > 0) add(sum.torque_sensor_N, q[0] * screw);
+  if (track.force_sensor_N.size() > 0) add(sum.force_sensor_N, q[1] * table);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -29,10 +35,8 @@ Hypothesis sensor_gain() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence =
               "a sensor's gain is off: torque by {torque_relative_error}, force by {force_relative_error} of the reading",
-
           .confused_with = {"torque_gain_error"},
           .friction = false};
 }

@@ -55,9 +55,15 @@ Grid frequencies() {
   return grid;
 }
 
+Grid torque_limits() {
+  Grid grid;
+  for (double limit = 0.08; limit < 4.0; limit *= 1.12) grid.push_back({limit});
+  return grid;
+}
+
 Grid spots() {
   Grid grid;
-  for (const double width : {0.001, 0.003, 0.008})
+  for (const double width : {0.002, 0.006})
     for (double at = -0.075; at <= 0.0751; at += width) grid.push_back({at, width});
   return grid;
 }

@@ -25,6 +25,7 @@ using Grid = std::vector<std::vector<double>>;
 [[nodiscard]] Grid whole_orders(int first, int last);
 [[nodiscard]] Grid ripple_orders();  ///< one and two a revolution, and everything between that is not whole
 [[nodiscard]] Grid frequencies();    ///< 8 to 45 Hz
+[[nodiscard]] Grid torque_limits();
 [[nodiscard]] Grid spots();          ///< places along a stroke and widths
 
 }  // namespace feedtwin::tools::diagnosis

@@ -9,8 +9,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const auto v = view.track.velocity_m_per_s.array();
-  add(sum.screw_N, about_sample((q[0] * v.sign() * v.abs().pow(q[1])).matrix()));
+  const auto v = view.track.centred_m_per_s.array();
+  add(sum.screw_N, (q[0] * v.sign() * v.abs().pow(q[1])).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -34,7 +34,6 @@ Hypothesis sublinear_viscous() {
           .named = named,
           .admissible = possible,
           .sentence = "the screw's viscous friction grows more slowly than speed, as |v|^{exponent}",
-
           .confused_with = {"quadratic_drag", "direction_dependent_friction"},
           .friction = false};
 }

@@ -27,9 +27,7 @@ Hypothesis torque_gain_error() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the motor gives {relative_error} of its commanded torque more than it says",
-
           .confused_with = {"sensor_gain"},
           .friction = false};
 }

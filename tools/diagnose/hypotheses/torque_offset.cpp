@@ -27,9 +27,7 @@ Hypothesis torque_offset() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-
           .sentence = "the drive adds a constant {offset_Nm} N m",
-
           .confused_with = {"gravity", "direction_dependent_friction"},
           .friction = false};
 }

@@ -29,9 +29,7 @@ Hypothesis torque_ripple() {
           .shapes = whole_orders(1, 48),
           .apply = apply,
           .named = named,
-
           .sentence = "the torque ripples with the current: {relative_amplitude} of it, {cycles_per_rev} times a revolution",
-
           .confused_with = {"cogging", "rev_ripple"},
           .friction = false};
 }

@@ -34,7 +34,6 @@ Hypothesis torque_saturation() {
           .named = named,
           .admissible = possible,
           .sentence = "the drive gives no more than {limit_share} of the largest torque commanded",
-
           .confused_with = {"torque_gain_error"},
           .friction = false};
 }
