@@ -117,9 +117,11 @@ void InverseModel::weigh_noise() {
   }
   const Track& track = tracks_.front();
   const double grid_m = nominal_.axis.lead_m / nominal_.axis.encoder_counts_per_rev;
-  const double acceleration = twice * grid_m * grid_m / 12.0 / std::pow(track.sample_s, 4);
-  const double torque = flat * std::pow(white_sigma(track.torque_sensor_N), 2),
-               force = flat * std::pow(white_sigma(track.force_sensor_N), 2);
+  noise_.acceleration = twice * grid_m * grid_m / 12.0 / std::pow(track.sample_s, 4);
+  noise_.torque_sensor = flat * std::pow(white_sigma(track.torque_sensor_N), 2);
+  noise_.force_sensor = flat * std::pow(white_sigma(track.force_sensor_N), 2);
+  noise_.slip = flat * std::pow(white_sigma(track.slip_m), 2);
+  const double acceleration = noise_.acceleration, torque = noise_.torque_sensor, force = noise_.force_sensor;
   for (const auto& equation : equations_) {
     const double mass =
         equation.motor * model.motor_mass_kg + equation.screw * model.screw_mass_kg + equation.guide * model.table_mass_kg;
@@ -228,7 +230,8 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   const double motor_kg = axis.motor.inertia_kgm2 * k * k, screw_kg = axis.ball_screw_inertia_kgm2 * k * k;
   const double table_kg = axis.guide_mass_kg + extra.table_mass_kg;
   const double per_mass = 1.0 / (motor_kg + screw_kg + table_kg);
-  if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * track.half_step_N;
+  if (equation.motor != equation.screw)
+    r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * track.half_step_N;
   if (equation.screw != equation.guide) r += (equation.screw ? 1.0 : -1.0) * table_kg * per_mass * track.half_step_N;
   double mass = 0.0, nominal_mass = 0.0;
   if (equation.screw) {

@@ -39,6 +39,13 @@ struct ContactForces {
   Vector screw_N, guide_N;
 };
 
+/// Variances that the encoder's grid and the sensors' own noise leave in a row.
+struct RowNoise {
+  double acceleration = 0.0;                       ///< (m/s^2)^2
+  double torque_sensor = 0.0, force_sensor = 0.0;  ///< N^2 at the table
+  double slip = 0.0, power = 0.0;
+};
+
 class InverseModel {
  public:
   InverseModel(std::vector<Track> tracks, const plant::AxisParameters& nominal);
@@ -48,6 +55,7 @@ class InverseModel {
   [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
   [[nodiscard]] Index rows() const { return rows_; }
   [[nodiscard]] bool power_recorded() const { return power_; }
+  [[nodiscard]] const RowNoise& noise() const { return noise_; }
   /// Samples between two rows of a force equation, and how many are dropped at either end.
   static constexpr Index decimation = 4, margin = 24;
   /// The sample at which a row stands.
@@ -88,6 +96,7 @@ class InverseModel {
   std::vector<Equation> equations_;
   std::vector<Segment> segments_;
   std::vector<double> acceleration_share_;  ///< of each equation's noise variance
+  RowNoise noise_;
   Index rows_ = 0;
   bool power_ = false;
 };

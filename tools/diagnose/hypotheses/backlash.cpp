@@ -24,6 +24,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"gap_m", q[0]}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 1e-7;
+}
+
 }  // namespace
 
 Hypothesis backlash() {
@@ -35,6 +39,7 @@ Hypothesis backlash() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the table follows the motor with a play of {gap_m} m at every reversal",
           .confused_with = {"presliding_memory", "screw_compliance"},
           .friction = false};

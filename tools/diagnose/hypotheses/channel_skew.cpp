@@ -1,5 +1,6 @@
-// Skew: the force sensors are sampled later than the encoder.
+// Skew: a sensor is late against the encoder.
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/diagnose/hypotheses/registry.h"
@@ -9,31 +10,40 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  for (Vector Contribution::* sensor : {&Contribution::torque_sensor_N, &Contribution::force_sensor_N}) {
-    const Vector& reading =
-        sensor == &Contribution::torque_sensor_N ? view.track.torque_sensor_N : view.track.force_sensor_N;
-    if (reading.size() > 0) add(sum.*sensor, reading - delayed(reading, -q[0] / view.track.sample_s));
-  }
+  const Track& track = view.track;
+  const auto late = [&](const Vector& reading, double delay_s) {
+    return Vector(reading - delayed(reading, -delay_s / track.sample_s));
+  };
+  if (track.torque_sensor_N.size() > 0) add(sum.torque_sensor_N, late(track.torque_sensor_N, q[0]));
+  if (track.force_sensor_N.size() > 0) add(sum.force_sensor_N, late(track.force_sensor_N, q[1]));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"skew_s", q[0]}};
+  return {{"torque_sensor_delay_s", std::max(0.0, q[0])}, {"force_sensor_delay_s", std::max(0.0, q[1])}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::max(q[0], q[1]) > 3e-4;
 }
 
 }  // namespace
 
 Hypothesis channel_skew() {
-  return {.id = "channel_skew",
-          .component = "sensors",
-          .channel = "torque_sensor_Nm",
-          .where = Where::time,
-          .parameters = {{"skew_s", Kind::amplitude, 1e-4, -0.05, 0.05}},
-          .shapes = {{}},
-          .apply = apply,
-          .named = named,
-          .sentence = "the force sensors are sampled {skew_s} s apart from the rest",
-          .confused_with = {"input_delay", "current_loop_lag"},
-          .friction = false};
+  return {
+      .id = "channel_skew",
+      .component = "sensors",
+      .channel = "torque_sensor_Nm",
+      .where = Where::time,
+      .parameters = {{"torque_sensor_delay_s", Kind::amplitude, 1e-4, -1e-3, 0.05},
+                     {"force_sensor_delay_s", Kind::amplitude, 1e-4, -1e-3, 0.05}},
+      .shapes = {{}},
+      .apply = apply,
+      .named = named,
+      .admissible = possible,
+      .sentence =
+          "the sensors are late against the encoder: torque by {torque_sensor_delay_s} s, force by {force_sensor_delay_s} s",
+      .confused_with = {"input_delay", "current_loop_lag"},
+      .friction = false};
 }
 
 }  // namespace feedtwin::tools::diagnosis

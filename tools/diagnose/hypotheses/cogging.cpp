@@ -16,6 +16,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"amplitude_Nm", std::hypot(q[0], q[1])}, {"cycles_per_rev", q[2]}, {"phase_rad", std::atan2(q[1], q[0])}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::hypot(q[0], q[1]) > 1e-4;
+}
+
 }  // namespace
 
 Hypothesis cogging() {
@@ -29,6 +33,7 @@ Hypothesis cogging() {
           .shapes = whole_orders(3, 48),
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence =
               "the motor cogs: a torque of {amplitude_Nm} N m that repeats {cycles_per_rev} times a revolution whatever the "
               "current",

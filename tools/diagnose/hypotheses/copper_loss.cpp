@@ -17,6 +17,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"coefficient_W_per_Nm2", q[0]}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 0.2;
+}
+
 }  // namespace
 
 Hypothesis copper_loss() {
@@ -28,6 +32,7 @@ Hypothesis copper_loss() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the windings' i^2 R loss is missing: {coefficient_W_per_Nm2} W per N^2 m^2 of torque",
           .confused_with = {"regeneration_clipped"},
           .friction = false};

@@ -26,6 +26,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"time_constant_s", q[0]}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 1.5e-4;
+}
+
 }  // namespace
 
 Hypothesis current_loop_lag() {
@@ -37,6 +41,7 @@ Hypothesis current_loop_lag() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the drive's current loop lags: first order, {time_constant_s} s",
           .confused_with = {"input_delay", "channel_skew", "frictional_lag"},
           .friction = false};

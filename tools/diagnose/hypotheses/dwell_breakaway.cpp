@@ -20,8 +20,8 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   add(sum.screw_N, force);
 }
 
-std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"force_N", q[0]}, {"time_constant_s", q[1]}};
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& axis) {
+  return {{"relative_rise", q[0] / axis.ball_screw.coulomb_N.pos}, {"time_constant_s", q[1]}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -40,7 +40,7 @@ Hypothesis dwell_breakaway() {
           .apply = apply,
           .named = named,
           .admissible = possible,
-          .sentence = "breakaway rises with the rest before it, by up to {force_N} N",
+          .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
           .confused_with = {"presliding_memory"},
           .friction = false};
 }

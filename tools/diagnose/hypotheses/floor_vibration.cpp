@@ -16,10 +16,10 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   add(sum.guide_N, wave(t, 1.0, q[8], q[2 * run], q[2 * run + 1]));
 }
 
-std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& axis) {
   double square = 0.0;
   for (std::size_t i = 0; i < 8; ++i) square += q[i] * q[i];
-  return {{"amplitude_N", std::sqrt(square / 4.0)}, {"frequency_Hz", q[8]}};
+  return {{"acceleration_m_per_s2", std::sqrt(square / 3.0) / axis.guide_mass_kg}, {"frequency_Hz", q[8]}};
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Hypothesis floor_vibration() {
           .shapes = frequencies(),
           .apply = apply,
           .named = named,
-          .sentence = "the floor shakes the table with {amplitude_N} N at {frequency_Hz} Hz",
+          .sentence = "the floor shakes the table with {acceleration_m_per_s2} m/s^2 at {frequency_Hz} Hz",
           .confused_with = {"process_force"},
           .friction = false};
 }

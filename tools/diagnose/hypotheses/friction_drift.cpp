@@ -1,4 +1,4 @@
-// Friction that drifts with time, whatever is done: F_C and F_S times 1 + d t.
+// Friction that drifts with time, whatever is done: F_C, F_S and mu times 1 + c (1 - exp(-t / T)).
 
 #include <cmath>
 
@@ -10,11 +10,17 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
-  scale(sum.screw_sliding, (1.0 + q[0] * t.array()).matrix());
+  const Vector factor = (1.0 + q[0] * (1.0 - (-t.array() / q[1]).exp())).matrix();
+  scale(sum.screw_sliding, factor);
+  scale(sum.screw_viscous, factor);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_rate_per_s", q[0]}};
+  return {{"relative_change", q[0]}, {"time_constant_s", q[1]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::abs(q[0]) > 0.03;
 }
 
 }  // namespace
@@ -24,11 +30,13 @@ Hypothesis friction_drift() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"relative_rate_per_s", Kind::amplitude, 1e-3, -0.5, 0.5}},
-          .shapes = {{}},
+          .parameters = {{"relative_change", Kind::amplitude, 1e-2, -0.9, 5.0},
+                         {"time_constant_s", Kind::shape, 1e-2, 0.2, 1e4}},
+          .shapes = {{1.0}, {4.0}, {20.0}},
           .apply = apply,
           .named = named,
-          .sentence = "sliding friction drifts by {relative_rate_per_s} of itself a second",
+          .admissible = possible,
+          .sentence = "friction drifts with time, by {relative_change} of itself within {time_constant_s} s",
           .confused_with = {"thermal_friction"},
           .friction = true};
 }

@@ -14,7 +14,11 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"lag_s", q[0]}};
+  return {{"time_constant_s", q[0]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 8e-4;
 }
 
 }  // namespace
@@ -24,11 +28,12 @@ Hypothesis frictional_lag() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"lag_s", Kind::amplitude, 1e-3, 0.0, 0.2}},
+          .parameters = {{"time_constant_s", Kind::amplitude, 1e-3, 0.0, 0.2}},
           .shapes = {{}},
           .apply = apply,
           .named = named,
-          .sentence = "friction follows speed with a lag of {lag_s} s",
+          .admissible = possible,
+          .sentence = "friction follows speed with a lag of {time_constant_s} s",
           .confused_with = {"input_delay", "current_loop_lag"},
           .friction = false};
 }

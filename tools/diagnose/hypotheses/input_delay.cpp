@@ -16,6 +16,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"delay_s", q[0]}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 1.5e-4;
+}
+
 }  // namespace
 
 Hypothesis input_delay() {
@@ -27,6 +31,7 @@ Hypothesis input_delay() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the command acts {delay_s} s late",
           .confused_with = {"current_loop_lag", "channel_skew", "frictional_lag"},
           .friction = false};

@@ -16,6 +16,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"relative_error", q[0]}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::abs(q[0]) > 3e-6;
+}
+
 }  // namespace
 
 Hypothesis lead_error() {
@@ -27,6 +31,7 @@ Hypothesis lead_error() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the lead is off by {relative_error} of itself",
           .confused_with = {"screw_growth"},
           .friction = false};

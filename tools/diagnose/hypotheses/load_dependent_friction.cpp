@@ -13,8 +13,8 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   scale(sum.screw_sliding, (1.0 + q[0] * load.array().abs()).matrix());
 }
 
-std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_per_N", q[0]}};
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& axis) {
+  return {{"friction_per_load", q[0] * axis.ball_screw.coulomb_N.pos}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -33,7 +33,7 @@ Hypothesis load_dependent_friction() {
           .apply = apply,
           .named = named,
           .admissible = possible,
-          .sentence = "the screw's friction rises by {relative_per_N} of itself for each newton on the nut",
+          .sentence = "the screw's friction rises by {friction_per_load} N for each newton on the nut",
           .confused_with = {"torque_gain_error"},
           .friction = true};
 }

@@ -18,6 +18,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"relative_slope_per_half_stroke", q[0]}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::abs(q[0]) > 0.03;
+}
+
 }  // namespace
 
 Hypothesis position_friction() {
@@ -29,6 +33,7 @@ Hypothesis position_friction() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence =
               "the screw's sliding friction grows along the stroke, by {relative_slope_per_half_stroke} of itself from the "
               "middle to the end",

@@ -13,7 +13,11 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"delay_s", q[0]}};
+  return {{"window_s", 0.1 + 2.0 * q[0]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 5e-3;
 }
 
 }  // namespace
@@ -27,7 +31,8 @@ Hypothesis power_meter_window() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
-          .sentence = "the power meter shows what was {delay_s} s earlier",
+          .admissible = possible,
+          .sentence = "the power meter averages over {window_s} s",
           .confused_with = {"regeneration_clipped"},
           .friction = false};
 }

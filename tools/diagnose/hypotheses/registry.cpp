@@ -22,6 +22,7 @@ std::vector<Hypothesis> registered() {
       gravity(),
       quadratic_drag(),
       sublinear_viscous(),
+      direction_dependent_friction(),
       lead_error(),
       cyclic_lead_error(),
       encoder_eccentricity(),

@@ -23,6 +23,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis gravity();
 [[nodiscard]] Hypothesis quadratic_drag();
 [[nodiscard]] Hypothesis sublinear_viscous();
+[[nodiscard]] Hypothesis direction_dependent_friction();
 [[nodiscard]] Hypothesis lead_error();
 [[nodiscard]] Hypothesis cyclic_lead_error();
 [[nodiscard]] Hypothesis encoder_eccentricity();

@@ -21,6 +21,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"stiffness_N_per_m", 1.0 / std::max(q[0], 1e-12)}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 3e-9;
+}
+
 }  // namespace
 
 Hypothesis screw_compliance() {
@@ -32,6 +36,7 @@ Hypothesis screw_compliance() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "screw, nut and bearing yield: {stiffness_N_per_m} N/m between motor and table",
           .confused_with = {"backlash", "lead_error"},
           .friction = false};

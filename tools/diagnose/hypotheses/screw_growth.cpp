@@ -10,11 +10,11 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
-  add(sum.slip_m, q[0] * t.cwiseProduct(view.track.position_m));
+  add(sum.slip_m, (q[0] / 600.0 * t.array() * (view.track.position_m.array() + 0.075)).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_rate_per_s", q[0]}};
+  return {{"relative_growth", q[0]}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -33,7 +33,7 @@ Hypothesis screw_growth() {
           .apply = apply,
           .named = named,
           .admissible = possible,
-          .sentence = "the screw grows by {relative_rate_per_s} of its length a second",
+          .sentence = "the screw grows as it warms, by {relative_growth} of its length after a long time",
           .confused_with = {"lead_error"},
           .friction = false};
 }

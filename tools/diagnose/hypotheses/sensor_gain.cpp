@@ -20,7 +20,11 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"torque_relative_error", q[0]}, {"force_relative_error", q[1]}};
+  return {{"torque_sensor_gain", 1.0 + q[0]}, {"force_sensor_gain", 1.0 + q[1]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::max(std::abs(q[0]), std::abs(q[1])) > 0.03;
 }
 
 }  // namespace
@@ -35,8 +39,10 @@ Hypothesis sensor_gain() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence =
-              "a sensor's gain is off: torque by {torque_relative_error}, force by {force_relative_error} of the reading",
+              "a sensor's gain is off: the torque sensor shows {torque_sensor_gain}, the force sensor {force_sensor_gain} "
+              "of the truth",
           .confused_with = {"torque_gain_error"},
           .friction = false};
 }

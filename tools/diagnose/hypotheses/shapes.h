@@ -26,6 +26,6 @@ using Grid = std::vector<std::vector<double>>;
 [[nodiscard]] Grid ripple_orders();  ///< one and two a revolution, and everything between that is not whole
 [[nodiscard]] Grid frequencies();    ///< 8 to 45 Hz
 [[nodiscard]] Grid torque_limits();
-[[nodiscard]] Grid spots();          ///< places along a stroke and widths
+[[nodiscard]] Grid spots();  ///< places along a stroke and widths
 
 }  // namespace feedtwin::tools::diagnosis

@@ -1,4 +1,4 @@
-// Viscous friction that grows more slowly than speed: F = c |v|^a.
+// Viscous friction that grows more slowly than speed: mu v_r (|v| / v_r)^a in place of mu v; q = 1 - a.
 
 #include <cmath>
 
@@ -9,16 +9,24 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const auto v = view.track.centred_m_per_s.array();
-  add(sum.screw_N, (q[0] * v.sign() * v.abs().pow(q[1])).matrix());
+  constexpr double reference_m_per_s = 0.1, small_m_per_s = 1e-4;
+  const Track& track = view.track;
+  const auto& mu = view.axis.ball_screw.viscous_Ns_per_m;
+  Vector force(track.size);
+  for (Index k = 0; k < track.size; ++k) {
+    const double v = track.centred_m_per_s[k];
+    const double share = std::hypot(v, small_m_per_s) / reference_m_per_s;
+    force[k] = (v > 0.0 ? mu.pos : mu.neg) * v * (std::pow(share, -q[0]) - 1.0);
+  }
+  add(sum.screw_N, force);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"coefficient", q[0]}, {"exponent", q[1]}};
+  return {{"exponent", 1.0 - q[0]}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.0;
+  return std::abs(q[0]) > 0.03;
 }
 
 }  // namespace
@@ -28,12 +36,12 @@ Hypothesis sublinear_viscous() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::velocity,
-          .parameters = {{"coefficient", Kind::amplitude, 1.0}, {"exponent", Kind::shape, 1e-3, 0.3, 0.97}},
-          .shapes = {{0.5}, {0.6}, {0.7}, {0.8}, {0.9}},
+          .parameters = {{"exponent_below_one", Kind::amplitude, 1e-2, -0.5, 0.75}},
+          .shapes = {{}},
           .apply = apply,
           .named = named,
           .admissible = possible,
-          .sentence = "the screw's viscous friction grows more slowly than speed, as |v|^{exponent}",
+          .sentence = "the screw's viscous friction grows as the speed to the power {exponent}",
           .confused_with = {"quadratic_drag", "direction_dependent_friction"},
           .friction = false};
 }

@@ -16,6 +16,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"relative_error", q[0]}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::abs(q[0]) > 0.03;
+}
+
 }  // namespace
 
 Hypothesis torque_gain_error() {
@@ -27,6 +31,7 @@ Hypothesis torque_gain_error() {
           .shapes = {{}},
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the motor gives {relative_error} of its commanded torque more than it says",
           .confused_with = {"sensor_gain"},
           .friction = false};

@@ -16,6 +16,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"relative_amplitude", std::hypot(q[0], q[1])}, {"cycles_per_rev", q[2]}, {"phase_rad", std::atan2(q[1], q[0])}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return std::hypot(q[0], q[1]) > 4e-3;
+}
+
 }  // namespace
 
 Hypothesis torque_ripple() {
@@ -29,6 +33,7 @@ Hypothesis torque_ripple() {
           .shapes = whole_orders(1, 48),
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the torque ripples with the current: {relative_amplitude} of it, {cycles_per_rev} times a revolution",
           .confused_with = {"cogging", "rev_ripple"},
           .friction = false};

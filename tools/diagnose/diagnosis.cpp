@@ -1,0 +1,184 @@
+#include "tools/diagnose/diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plant/effects/registry.h"
+#include "tools/diagnose/sentence.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double z90 = 1.645;
+
+InverseModel model_of(const std::vector<Recording>& recordings, const plant::AxisParameters& axis) {
+  std::vector<Track> tracks;
+  for (const auto& recording : recordings) {
+    tracks.push_back(make_track(recording, axis));
+    tracks.back().run = tracks.size() - 1;
+  }
+  return {std::move(tracks), axis};
+}
+
+/// Where in the list of unknowns an effect's working parameters stand; -1 for those that are not fitted.
+std::vector<Index> places_of(const Fit& fit, std::size_t effect) {
+  Index at = fit.base_count();
+  std::vector<Index> places;
+  for (std::size_t e = 0; e <= effect; ++e) {
+    const auto& active = fit.model.effects[e];
+    places.assign(active.q.size(), -1);
+    for (std::size_t j = 0; j < active.q.size(); ++j)
+      if (active.hypothesis->parameters[j].kind != Kind::fixed) places[j] = at++;
+  }
+  return places;
+}
+
+/// Intervals of what is reported, from the covariance of what was fitted.
+std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, std::size_t effect, double inflation) {
+  const auto& active = fit.model.effects[effect];
+  const auto& axis = fit.model.axis;
+  const auto places = places_of(fit, effect);
+  const auto now = active.hypothesis->named(active.q, axis);
+  std::vector<std::pair<std::string, Estimate>> out;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    Vector slope = Vector::Zero(fit.covariance.rows());
+    for (std::size_t j = 0; j < active.q.size(); ++j) {
+      if (places[j] < 0) continue;
+      const double sigma = std::sqrt(std::max(0.0, fit.covariance(places[j], places[j])));
+      const double step = 1e-3 * std::max(sigma, 1e-6 * std::abs(active.q[j])) + 1e-300;
+      auto near = active.q;
+      near[j] += step;
+      slope[places[j]] = (active.hypothesis->named(near, axis)[i].value - now[i].value) / step;
+    }
+    const double sigma = std::sqrt(std::max(0.0, slope.dot(fit.covariance * slope))) * inflation;
+    out.push_back({now[i].name, {now[i].value, now[i].value - z90 * sigma, now[i].value + z90 * sigma}});
+  }
+  return out;
+}
+
+std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, double inflation) {
+  std::vector<Recalibrated> out;
+  for (std::size_t i = 0; i < fitter.base().size(); ++i) {
+    const auto& parameter = fitter.base()[i];
+    const double was = value_of(parameter, fitter.nominal()), now = value_of(parameter, fit.model.axis);
+    const auto at = static_cast<Index>(i);
+    const double in_tolerances = std::sqrt(std::max(0.0, fit.covariance(at, at)));
+    const double sigma = in_tolerances * fitter.tolerance(i) * inflation;
+    const bool told_by_data = in_tolerances * inflation < 0.5;
+    if (told_by_data && std::abs(now - was) > 3.0 * sigma && std::abs(now - was) > 2e-3 * std::abs(was))
+      out.push_back({std::string(parameter.entry->key), was, {now, now - z90 * sigma, now + z90 * sigma}});
+  }
+  return out;
+}
+
+std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const InverseModel& model) {
+  double low = 1e300, high = -1e300;
+  const auto cover = [&](double a, double b) { low = std::min(low, a), high = std::max(high, b); };
+  for (const auto& track : model.tracks()) {
+    switch (effect.hypothesis->where) {
+      case Where::position:
+        cover(track.position_m.minCoeff(), track.position_m.maxCoeff());
+        break;
+      case Where::velocity:
+        cover(track.centred_m_per_s.minCoeff(), track.centred_m_per_s.maxCoeff());
+        break;
+      case Where::reversal:
+        cover(0.0, 0.05);
+        break;
+      default:
+        cover(0.0, static_cast<double>(track.size) * track.sample_s);
+    }
+  }
+  for (const auto& [name, estimate] : effect.parameters)
+    if (name == "cycles_per_rev" || name == "frequency_Hz") return {{estimate.value, estimate.value}};
+  return {{low, high}};
+}
+
+plant::AxisParameters extended(const Fit& fit) {
+  plant::AxisParameters axis = fit.model.axis;
+  for (const auto& active : fit.model.effects) {
+    const auto* entry = plant::find_effect(active.hypothesis->id);
+    if (entry == nullptr) continue;
+    auto setting = plant::preset_of(*entry);
+    for (const auto& [name, value] : active.hypothesis->named(active.q, fit.model.axis)) {
+      double* place = plant::value_in(setting, *entry, name);
+      if (place == nullptr) continue;
+      const auto known = std::ranges::find(entry->parameters, name, &plant::EffectParameter::name);
+      *place = std::clamp(value, known->lowest, known->highest);
+    }
+    axis.effects.push_back(std::move(setting));
+  }
+  return axis;
+}
+
+std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Candidate& nominal,
+                                              const Candidate& recalibrated_only, const Candidate& final) {
+  std::map<std::string, ChannelFigures> out;
+  const auto before = nrmse(runs, nominal), middle = nrmse(runs, recalibrated_only), after = nrmse(runs, final);
+  const auto floor = noise_floor(runs, final);
+  for (const auto& [channel, value] : before) {
+    const auto at = [&channel](const Nrmse& all) { return all.contains(channel) ? all.at(channel) : 0.0; };
+    out[channel] = {value, at(middle), at(after), at(floor)};
+  }
+  return out;
+}
+
+void plan_next(Diagnosis& result) {
+  for (const auto& effect : result.effects) {
+    if (effect.alternatives.empty()) continue;
+    result.next_separates = effect.alternatives;
+    result.next_separates.insert(result.next_separates.begin(), std::string(effect.hypothesis->id));
+    if (const auto* entry = plant::find_effect(effect.hypothesis->id)) result.next_move = entry->exciting_move;
+    return;
+  }
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Case& data, const std::function<void(std::string_view)>& progress) {
+  progress("following friction along " + std::to_string(data.fit.size()) + " runs");
+  const InverseModel model = model_of(data.fit, data.axis);
+  const Fitter fitter(model, data.axis);
+  const SearchResult found = search(fitter, Bar{}, progress);
+  const Fit& fit = found.final;
+  const double inflation = std::sqrt(std::max(1.0, fit.cost / static_cast<double>(model.rows())));
+
+  Diagnosis result;
+  bool missing = false, undecided = false;
+  for (const auto& one : found.found) {
+    NamedEffect effect;
+    effect.hypothesis = one.effect.hypothesis;
+    for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
+      if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, e, inflation);
+    effect.share = one.share;
+    effect.p_false_alarm = one.p_false_alarm;
+    effect.intervals = acts_in(effect, model);
+    for (const auto* rival : one.rivals) effect.alternatives.emplace_back(rival->id);
+    missing = missing || !effect.hypothesis->number_of_the_model;
+    undecided = undecided || (!effect.alternatives.empty() && !effect.hypothesis->number_of_the_model);
+    effect.sentence = sentence_of(effect);
+    result.effects.push_back(std::move(effect));
+  }
+  result.recalibrated = recalibrated(fitter, fit, inflation);
+  result.updated = extended(fit);
+  result.verdict = undecided                                               ? "named-set"
+                   : missing                                               ? "named"
+                   : result.recalibrated.empty() && result.effects.empty() ? "agrees"
+                                                                           : "recalibrate";
+  result.detection_limit_N = std::sqrt(Bar{}.share) * found.whitening.residual_rms(0);
+
+  progress("figures on what the fit did not see");
+  const Candidate nominal{data.axis, {}};
+  const auto& unseen = data.holdout.empty() ? data.fit : data.holdout;
+  const InverseModel held_out = model_of(unseen, data.axis);
+  result.holdout = figures(held_out, nominal, found.recalibrated.model, fit.model);
+  result.energy_before = energy(held_out, nominal);
+  result.energy_after = energy(held_out, fit.model);
+  plan_next(result);
+  result.summary = summary_of(result);
+  return result;
+}
+
+}  // namespace feedtwin::tools::diagnosis

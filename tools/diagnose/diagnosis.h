@@ -1,0 +1,55 @@
+#pragma once
+// The whole of a diagnosis: what was found in a case and how well it is known, ready to be told.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plant/parameters.h"
+#include "tools/diagnose/figures.h"
+#include "tools/diagnose/search.h"
+#include "tools/recording/case.h"
+
+namespace feedtwin::tools::diagnosis {
+
+struct Estimate {
+  double value = 0.0, low = 0.0, high = 0.0;  ///< with its 90 % interval
+};
+
+struct NamedEffect {
+  const Hypothesis* hypothesis = nullptr;
+  std::string sentence;
+  std::vector<std::pair<std::string, Estimate>> parameters;
+  std::vector<std::pair<double, double>> intervals;  ///< where it acts
+  double share = 0.0, p_false_alarm = 1.0;
+  std::vector<std::string> alternatives;
+};
+
+struct Recalibrated {
+  std::string key;
+  double was = 0.0;
+  Estimate now;
+};
+
+struct ChannelFigures {
+  double before = 0.0, recalibrated = 0.0, after = 0.0, floor = 0.0;
+};
+
+struct Diagnosis {
+  std::string verdict, summary;
+  std::vector<NamedEffect> effects;
+  std::vector<Recalibrated> recalibrated;
+  std::map<std::string, ChannelFigures> holdout;
+  Energy energy_before, energy_after;
+  std::string next_move;
+  std::vector<std::string> next_separates;
+  double detection_limit_N = 0.0;  ///< RMS of the weakest effect that would have been named
+  plant::AxisParameters updated;   ///< recalibrated and extended
+};
+
+/// @param progress called with what is being done
+[[nodiscard]] Diagnosis diagnose(const Case& data, const std::function<void(std::string_view)>& progress);
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,78 @@
+#include "tools/diagnose/diagnosis_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+using nlohmann::json;
+
+const char* name_of(Where where) {
+  switch (where) {
+    case Where::position:
+      return "position";
+    case Where::velocity:
+      return "velocity";
+    case Where::time:
+      return "time";
+    case Where::reversal:
+      return "reversal";
+    case Where::order:
+      return "order";
+    default:
+      return "frequency";
+  }
+}
+
+json of(const Estimate& estimate) {
+  return {{"value", estimate.value}, {"ci90", {estimate.low, estimate.high}}};
+}
+
+json of(const NamedEffect& effect) {
+  json parameters = json::object(), intervals = json::array();
+  for (const auto& [name, estimate] : effect.parameters) parameters[name] = of(estimate);
+  for (const auto& [low, high] : effect.intervals) intervals.push_back({low, high});
+  const auto& h = *effect.hypothesis;
+  return {{"id", h.id},
+          {"component", h.component},
+          {"sentence", effect.sentence},
+          {"where", {{"channel", h.channel}, {"axis", name_of(h.where)}, {"intervals", intervals}}},
+          {"parameters", parameters},
+          {"share_of_mismatch", effect.share},
+          {"p_false_alarm", effect.p_false_alarm}};
+}
+
+}  // namespace
+
+json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
+  json out;
+  out["verdict"] = diagnosis.verdict;
+  out["summary"] = diagnosis.summary;
+  out["effects"] = json::array();
+  out["alternatives"] = json::array();
+  for (const auto& effect : diagnosis.effects) {
+    out["effects"].push_back(of(effect));
+    if (effect.alternatives.empty()) continue;
+    json set = {effect.hypothesis->id};
+    for (const auto& other : effect.alternatives) set.push_back(other);
+    out["alternatives"].push_back(set);
+  }
+  out["recalibrated"] = json::object();
+  for (const auto& one : diagnosis.recalibrated)
+    out["recalibrated"][one.key] = {{"was", one.was}, {"now", one.now.value}, {"ci90", {one.now.low, one.now.high}}};
+  out["holdout"] = json::object();
+  for (const auto& [channel, f] : diagnosis.holdout)
+    out["holdout"][channel] = {{"nrmse_before", f.before},
+                               {"nrmse_recalibrated", f.recalibrated},
+                               {"nrmse_after", f.after},
+                               {"noise_floor", f.floor}};
+  out["energy"] = json::object();
+  for (const auto& [component, before] : diagnosis.energy_before)
+    out["energy"][component] = {{"before_J", before}, {"after_J", diagnosis.energy_after.at(component)}};
+  out["next_experiment"] = {{"move", diagnosis.next_move}, {"separates", diagnosis.next_separates}};
+  out["detection_limit_N"] = diagnosis.detection_limit_N;
+  out["updated_axis"] = updated_axis;
+  return out;
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,13 @@
+#pragma once
+// A diagnosis as JSON, in the form that scripts rely on.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "tools/diagnose/diagnosis.h"
+
+namespace feedtwin::tools::diagnosis {
+
+[[nodiscard]] nlohmann::json to_json(const Diagnosis& diagnosis, const std::string& updated_axis);
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,56 @@
+#include "tools/diagnose/sentence.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+std::string told(const Estimate& estimate) {
+  if (estimate.high - estimate.low < 1e-9 * std::abs(estimate.value)) return fmt::format("{:.4g}", estimate.value);
+  return fmt::format("{:.4g} ({:.4g} to {:.4g})", estimate.value, estimate.low, estimate.high);
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::string sentence_of(const NamedEffect& effect) {
+  std::string text(effect.hypothesis->sentence);
+  for (const auto& [name, estimate] : effect.parameters) {
+    const std::string slot = "{" + name + "}";
+    for (auto at = text.find(slot); at != std::string::npos; at = text.find(slot))
+      text.replace(at, slot.size(), told(estimate));
+  }
+  text = fmt::format(
+      "{}: {}. It makes {:.0f} % of what the recalibrated model leaves over; chance of a false alarm over all "
+      "hypotheses {:.1g}.",
+      effect.hypothesis->component, text, 100.0 * effect.share, std::max(1e-6, effect.p_false_alarm));
+  std::vector<std::string> ruled_out;
+  for (const auto other : effect.hypothesis->confused_with)
+    if (std::ranges::find(effect.alternatives, other) == effect.alternatives.end()) ruled_out.emplace_back(other);
+  if (!effect.alternatives.empty())
+    text += fmt::format(" These channels cannot tell it from {}.", list_of(effect.alternatives));
+  if (!ruled_out.empty()) text += fmt::format(" Ruled out, because they explain less: {}.", list_of(ruled_out));
+  return text;
+}
+
+std::string summary_of(const Diagnosis& diagnosis) {
+  const auto& verdict = diagnosis.verdict;
+  if (verdict == "agrees")
+    return fmt::format("Model and recording agree; an effect of {:.2g} N rms would have been named.",
+                       diagnosis.detection_limit_N);
+  if (verdict == "recalibrate" && diagnosis.effects.empty())
+    return fmt::format("{} numbers of the model are off; no physics is missing beyond {:.2g} N rms.",
+                       diagnosis.recalibrated.size(), diagnosis.detection_limit_N);
+  if (verdict == "unknown") return "The mismatch is real and none of the known effects explains it.";
+  std::vector<std::string> ids;
+  for (const auto& effect : diagnosis.effects) ids.emplace_back(effect.hypothesis->id);
+  return fmt::format("{}: {}.", verdict == "recalibrate" ? "A number of the model is wrong" : "Missing from the model",
+                     list_of(ids));
+}
+
+}  // namespace feedtwin::tools::diagnosis

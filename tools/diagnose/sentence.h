@@ -1,0 +1,16 @@
+#pragma once
+// A finding as an engineer would say it.
+
+#include <string>
+
+#include "tools/diagnose/diagnosis.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// Where, what, how large with its interval, how sure, how much of the mismatch, what else could be.
+[[nodiscard]] std::string sentence_of(const NamedEffect& effect);
+
+/// The whole of it in one line.
+[[nodiscard]] std::string summary_of(const Diagnosis& diagnosis);
+
+}  // namespace feedtwin::tools::diagnosis
