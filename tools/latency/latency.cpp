@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "io/udp/udp_port.h"
 #include "tools/config/input_error.h"
 #include "tools/json_option.h"
 #include "tools/latency/cyclictest.h"
+#include "tools/latency/udp_probe.h"
 #include "tools/run/plant_run.h"
 #include "tools/verb.h"
 
@@ -56,6 +58,32 @@ void draw(const rt::LatencyHistogram& histogram) {
     fmt::print("  to {:>7.0f} {:>9} {}\n", std::exp2(it - octaves.begin()), *it,
                std::string(static_cast<std::size_t>(width), '#'));
   }
+}
+
+/// A run of its own, commanded over UDP: the probe would disturb the comparison with cyclictest.
+nlohmann::json measure_input_to_output(const Options& options) {
+  ServerConfig config = configure(options);
+  config.axes.resize(1);
+  config.controller = "udp";
+  auto port = std::make_unique<io::udp::UdpPort>(io::udp::UdpSettings{.port = 0}, config.context());
+  const io::udp::UdpPort& udp = *port;
+  config.ports.push_back(std::move(port));
+  const double tick_s = config.loop.tick_s;
+  const rt::RtSettings settings = config.real_time;
+  PlantRun plant(std::move(config), static_cast<std::uint64_t>(std::llround(std::min(options.duration_s, 5.0) / tick_s)));
+  std::atomic<bool> stop{false};
+  UdpProbe probe(udp.udp_port(), tick_s, settings);
+  fmt::print(stderr, "input to output over UDP\n");
+  plant.run_in_real_time(stop);
+  probe.stop();
+  const auto& histogram = probe.input_to_output();
+  fmt::print(
+      "\nInput to output over UDP, at a random phase of the tick: p50 {:.0f} us, p99 {:.0f} us, max {:.0f} us, {} exchanges",
+      histogram.percentile_us(0.5), histogram.percentile_us(0.99), histogram.percentile_us(1.0), histogram.total());
+  fmt::print("{}\n", probe.unanswered() > 0 ? fmt::format(", {} unanswered", probe.unanswered()) : "");
+  return {{"p50", histogram.percentile_us(0.5)},     {"p99", histogram.percentile_us(0.99)},
+          {"p99_9", histogram.percentile_us(0.999)}, {"max", histogram.percentile_us(1.0)},
+          {"exchanges", histogram.total()},          {"unanswered", probe.unanswered()}};
 }
 
 double median(std::vector<double> values) {
@@ -113,6 +141,7 @@ int run(const Options& options) {
     pairs.push_back(pair);
   }
   if (!pairs.empty()) json["cyclictest"] = compare(pairs);
+  json["input_to_output_us"] = measure_input_to_output(options);
   write_json(options.json, json);
   return json["verdict"] == "unsound" ? not_so : done;
 }
