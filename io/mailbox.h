@@ -22,6 +22,11 @@ class Mailbox {
     writer_slot_ = shared_.exchange(static_cast<std::uint8_t>(writer_slot_ | unread), std::memory_order_acq_rel) & slot_mask;
   }
 
+  /// Writer: the value last posted has not been taken yet. It may be taken at any moment.
+  [[nodiscard]] bool waiting() const noexcept FEEDTWIN_REALTIME {
+    return (shared_.load(std::memory_order_relaxed) & unread) != 0;
+  }
+
   /// Reader: make newest() the last value posted. @return false if none was posted since the last call.
   bool take() noexcept FEEDTWIN_REALTIME {
     if ((shared_.load(std::memory_order_relaxed) & unread) == 0) return false;

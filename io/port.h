@@ -25,9 +25,17 @@ struct AxisRequest {
   std::int64_t watchdog_ns = 0;  ///< the controller's own watchdog time; 0: the configuration's
   bool enable = false;
   bool quick_stop = false;
-  bool fault_reset = false;    ///< a rising edge clears a watchdog fault
+  bool fault_reset = false;      ///< a rising edge clears a watchdog fault
+  std::uint32_t superseded = 0;  ///< requests that came since the last tick and that this one replaced
   std::int64_t reply_ns = -1;  ///< from the controller's trigger (SYNC, poll) to the reply's leaving; negative: not measured
 };
+
+/// `newer` replaces `older` before any tick has seen that one: what acts by a change alone must not get lost.
+[[nodiscard]] inline AxisRequest replacing(const AxisRequest& older, AxisRequest newer) noexcept FEEDTWIN_REALTIME {
+  newer.fault_reset = newer.fault_reset || older.fault_reset || (newer.enable && !older.enable);
+  newer.superseded = older.superseded + 1;
+  return newer;
+}
 
 /// What the loop makes of an axis's requests (rt/command_guard), in the order of increasing alarm.
 enum class DriveState : std::uint8_t { disabled, enabled, quick_stop, fault };

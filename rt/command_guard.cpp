@@ -22,7 +22,8 @@ bool CommandGuard::take(const io::AxisRequest& request, io::AxisRequest& before,
       return false;
     }
     if (ahead >= restart_distance || ahead <= -restart_distance) before = {};
-    if (ahead > 1 && ahead < restart_distance) counters_.lost += static_cast<std::uint64_t>(ahead - 1);
+    if (ahead > 0 && ahead < restart_distance)
+      counters_.lost += static_cast<std::uint64_t>(std::max<std::int64_t>(0, std::int64_t{ahead} - 1 - request.superseded));
   }
   in_force_ = request;
   any_request_ = true;

@@ -17,8 +17,10 @@ std::uint64_t Exchange::receive(std::span<AxisRequest> newest) noexcept {
   std::uint64_t fresh = 0;
   for (std::size_t axis = 0; axis < std::min(newest.size(), static_cast<std::size_t>(axes_)); ++axis) {
     if (image.number[axis] == number_seen_[axis]) continue;
-    number_seen_[axis] = image.number[axis];
     newest[axis] = image.request[axis];
+    newest[axis].superseded = static_cast<std::uint32_t>(image.number[axis] - number_seen_[axis] - 1);
+    superseded_ += newest[axis].superseded;
+    number_seen_[axis] = image.number[axis];
     fresh |= std::uint64_t{1} << axis;
   }
   return fresh;

@@ -10,6 +10,7 @@
 #include "io/modbus/register_map.h"
 #include "io/port.h"
 #include "io/registry.h"
+#include "io/tally.h"
 
 namespace feedtwin::io::modbus {
 
@@ -39,11 +40,14 @@ class Exchange {
   }
   Mailbox<RequestImage>& requests() noexcept { return requests_; }
   Mailbox<InputImage>& inputs() noexcept { return inputs_; }
+  /// Commands that a newer one replaced before a tick came.
+  [[nodiscard]] const Tally& superseded() const noexcept { return superseded_; }
 
  private:
   int axes_;
   std::array<double, max_axes> rated_torque_Nm_{};
   std::array<std::uint64_t, max_axes> number_seen_{};
+  Tally superseded_;
   std::atomic<bool> asked_{false};
   std::atomic<std::uint64_t> sends_{0};  ///< the first one comes before the first tick
   Mailbox<RequestImage> requests_;

@@ -33,6 +33,7 @@ std::vector<Counter> ModbusPort::counters() const {
       {"modbus_connections", "connections accepted", c.accepted.value()},
       {"modbus_command_changes", "times that a client took command", t.command_changes.value()},
       {"modbus_refused_writes", "writes refused: another client, or another port, was in command", t.refused_writes.value()},
+      {"modbus_superseded", "commands that a newer one replaced before a tick came", exchange_.superseded().value()},
       {"modbus_clipped_torques", "torque commands beyond 100 % of rated", r.clipped_torques().value()},
       {"modbus_illegal_functions", "requests with a function that is not served", t.illegal_functions.value()},
       {"modbus_illegal_addresses", "requests for registers that don't exist", t.illegal_addresses.value()},

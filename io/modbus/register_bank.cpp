@@ -76,10 +76,12 @@ void RegisterBank::post(std::size_t axis, std::int64_t arrival_ns) noexcept {
   sequence_[axis] += static_cast<std::uint32_t>(step) + (step < 0 ? new_start : 0);
   wire_sequence_[axis] = registers[holding::sequence];
 
-  AxisRequest& request = image_.request[axis];
-  request = request_from(registers, exchange_.rated_torque_Nm(axis));
+  AxisRequest request = request_from(registers, exchange_.rated_torque_Nm(axis));
+  // should it be taken after all in this moment, the change is told twice, which is once
+  if (exchange_.requests().waiting()) request = replacing(image_.request[axis], request);
   request.sequence = sequence_[axis];
   request.arrival_ns = arrival_ns;
+  image_.request[axis] = request;
   ++image_.number[axis];
 }
 

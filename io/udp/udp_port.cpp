@@ -141,10 +141,11 @@ Session::Verdict UdpPort::accept(const Datagram& datagram) noexcept {
   return verdict;
 }
 
-std::uint64_t UdpPort::hand_over(std::span<AxisRequest> newest) noexcept {
+std::uint64_t UdpPort::hand_over(std::span<AxisRequest> newest, std::uint64_t unseen) noexcept {
   std::uint64_t fresh = 0;
   for (std::size_t i = 0; i < std::min(pending_.axes, newest.size()); ++i) {
-    newest[i] = pending_.axis[i];
+    const bool replaces = ((unseen >> i) & 1U) != 0;
+    newest[i] = replaces ? replacing(newest[i], pending_.axis[i]) : pending_.axis[i];
     newest[i].sequence = session_.sequence();
     newest[i].arrival_ns = pending_arrival_ns_;
     fresh |= std::uint64_t{1} << i;
@@ -155,13 +156,13 @@ std::uint64_t UdpPort::hand_over(std::span<AxisRequest> newest) noexcept {
 }
 
 std::uint64_t UdpPort::receive(std::span<AxisRequest> newest) noexcept {
-  if (have_pending_) return hand_over(newest);  // lockstep: this one datagram makes this tick
+  if (have_pending_) return hand_over(newest, 0);  // lockstep: this one datagram makes this tick
   std::uint64_t fresh = 0;
   Datagram datagram;
   for (int i = 0; i < most_datagrams && read_one(datagram); ++i) {
     if (accept(datagram) != Session::Verdict::use) continue;
     if (fresh != 0) ++superseded_;
-    fresh |= hand_over(newest);
+    fresh |= hand_over(newest, fresh);
   }
   return fresh;
 }

@@ -51,7 +51,8 @@ class UdpPort final : public Port {
   bool read_one(Datagram& datagram) noexcept FEEDTWIN_REALTIME;
   /// Into pending_, if it is to be used.
   Session::Verdict accept(const Datagram& datagram) noexcept FEEDTWIN_REALTIME;
-  std::uint64_t hand_over(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME;
+  /// pending_ into the requests. @param unseen a bit for each axis whose request there is not older than this tick
+  std::uint64_t hand_over(std::span<AxisRequest> newest, std::uint64_t unseen) noexcept FEEDTWIN_REALTIME;
   bool send_reply() noexcept FEEDTWIN_REALTIME;
 
   UdpSettings settings_;

@@ -103,6 +103,14 @@ TEST_F(Guarded, SequencesAreCounted) {
   EXPECT_EQ(guard.counters().reordered, 1U);
 }
 
+TEST_F(Guarded, WhatANewerOneReplacedIsNotLost) {
+  give(request(0.1, 1, 0), 0);
+  AxisRequest r = request(0.1, 6, 0);
+  r.superseded = 3;
+  give(r, 0);
+  EXPECT_EQ(guard.counters().lost, 1U) << "2 to 5: three came and were replaced";
+}
+
 TEST_F(Guarded, SequencesWrapAround) {
   give(request(0.1, 0xFFFFFFFFU, 0), 0);
   EXPECT_EQ(give(request(0.2, 0, ms), ms).torque_Nm, 0.2);

@@ -162,6 +162,28 @@ TEST(ModbusPort, SequenceGoesOnBeyondSixteenBitsAndAFreshStartIsAFarJump) {
   EXPECT_EQ(other & 0xFFFF, 1U);
 }
 
+TEST(ModbusPort, AChangeBetweenTwoTicksIsNotLost) {
+  Exchange exchange({});
+  RegisterBank bank(exchange);
+  const auto write = [&](std::initializer_list<std::uint16_t> control) {
+    for (const auto bits : control) {
+      const Bytes bytes = write_one(1, bits);
+      bank.write(check(bytes, bank.extent()), 0);
+    }
+    AxisRequest request;
+    exchange.receive({&request, 1});
+    return request;
+  };
+  EXPECT_FALSE(write({1}).fault_reset);
+  const AxisRequest reset = write({0x81, 1, 1});
+  EXPECT_TRUE(reset.fault_reset && reset.enable);
+  EXPECT_EQ(reset.superseded, 2U);
+  EXPECT_FALSE(write({1}).fault_reset) << "told once";
+  EXPECT_TRUE(write({0, 1}).fault_reset) << "enable was taken away and given again";
+  EXPECT_FALSE(write({1}).fault_reset);
+  EXPECT_EQ(exchange.superseded().value(), 3U);
+}
+
 TEST(ModbusPort, TheReadBlockIsAlwaysOfOneTick) {
   Ticking loop(4);
   ASSERT_TRUE(loop.soon([&] { return loop.ticks() > 0; }));

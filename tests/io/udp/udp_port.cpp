@@ -57,6 +57,7 @@ TEST_F(UdpPortTest, FreeRunningTheNewestActsAndIsAnsweredOnce) {
   EXPECT_EQ(newest_[1].torque_Nm, 0.4);
   EXPECT_GE(newest_[0].arrival_ns, before_ns - second_ns / 100);
   EXPECT_LE(newest_[0].arrival_ns, monotonic_ns());
+  EXPECT_EQ(newest_[0].superseded, 1U);
   const auto reply = peer.receive();
   ASSERT_TRUE(reply);
   EXPECT_EQ(at<std::uint32_t>(*reply, 8), 2U);
