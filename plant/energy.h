@@ -13,15 +13,16 @@ struct AxisEnergy {
   double guide_J = 0.0;             ///< Eq. 10
   double cutting_J = 0.0;           ///< work against the cutting force
   double end_stop_J = 0.0;
+  double load_J = 0.0;        ///< work on effects of the load: springs, gravity, drag, process, floor (plant/effects)
   double input_work_J = 0.0;  ///< torque times the motor's angle
   double throughput_J = 0.0;  ///< the same without sign, and the energy at the start: the balance's yardstick
   double kinetic_J = 0.0;     ///< of everything that moves, less that at the start
-  double stored_J = 0.0;      ///< in the bristles, now
+  double stored_J = 0.0;      ///< in the bristles, and in what effects store, now
   double lost_J = 0.0;        ///< turned to heat, mechanical only
 
-  /// |work in - work on the components - cutting - end stops| / throughput; 0 before anything has moved.
+  /// |work in - work on the components - cutting - end stops - loads| / throughput; 0 before anything has moved.
   [[nodiscard]] double balance_error() const noexcept {
-    const double taken_J = motor_mechanical_J + ball_screw_J + guide_J + cutting_J + end_stop_J;
+    const double taken_J = motor_mechanical_J + ball_screw_J + guide_J + cutting_J + end_stop_J + load_J;
     return throughput_J > 0.0 ? std::abs(input_work_J - taken_J) / throughput_J : 0.0;
   }
 };

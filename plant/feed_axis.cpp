@@ -2,28 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace feedtwin::plant {
 
+namespace {
+
+std::unique_ptr<EffectChain> chain_of(const AxisParameters& axis, const AxisModel<double>& model) {
+  auto chain = axis.effects.empty() ? nullptr : std::make_unique<EffectChain>(axis, model);
+  return chain == nullptr || chain->empty() ? nullptr : std::move(chain);
+}
+
+}  // namespace
+
 FeedAxis::FeedAxis(const AxisParameters& parameters, Resolution resolution)
-    : parameters_(parameters),
-      model_(make_axis_model(parameters)),
-      resolution_(resolution),
-      encoder_(parameters.axis.lead_m, parameters.axis.encoder_counts_per_rev),
-      power_meter_(parameters.power_meter_window_s) {
-  place(parameters.axis.stroke_centre_m);
+    : FeedAxis(parameters, adapted(parameters), resolution) {}
+
+FeedAxis::FeedAxis(const AxisParameters& nominal, const AxisParameters& true_axis, Resolution resolution)
+    : parameters_(nominal),
+      model_(make_axis_model(true_axis)),
+      chain_(chain_of(true_axis, model_)),
+      driven_(chain_ ? chain_->driven(model_) : model_),
+      resolution_(chain_ ? chain_->at_least(resolution) : resolution),
+      encoder_(nominal.axis.lead_m, nominal.axis.encoder_counts_per_rev),
+      true_encoder_(true_axis.axis.lead_m, true_axis.axis.encoder_counts_per_rev),
+      power_meter_(true_axis.power_meter_window_s) {
+  place(nominal.axis.stroke_centre_m);
 }
 
 void FeedAxis::place(double position_m, double velocity_m_per_s) noexcept {
   state_ = {};
   state_.position_m = position_m;
   state_.velocity_m_per_s = velocity_m_per_s;
-  signals_.position_m = position_m;
-  signals_.scale_position_m = position_m;
-  signals_.velocity_m_per_s = velocity_m_per_s;
-  signals_.encoder_counts = encoder_.counts(position_m);
   initial_speed_squared_m2_per_s2_ = velocity_m_per_s * velocity_m_per_s;
   throughput_J_ += 0.5 * model_.mass_kg * initial_speed_squared_m2_per_s2_;
+  signals_.velocity_m_per_s = velocity_m_per_s;
+  if (chain_) chain_->reset(position_m, velocity_m_per_s);
+  sense();
+  signals_.index_passed = false;
 }
 
 FeedAxis::Drive FeedAxis::accept(const AxisCommand& command) const noexcept {
@@ -42,71 +58,136 @@ double FeedAxis::electrical_loss_J(const AxisLosses<double>& losses, double dura
          motor.electrical_quadratic_Ws2_per_m2.neg * losses.speed_travel_neg_m2_per_s;
 }
 
-const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noexcept {
-  const Drive drive = accept(command);
-  clipped_inputs_ += (drive.torque_Nm != command.torque_Nm) + (drive.cutting_force_N != command.cutting_force_N);
-  const double motor_force_N = drive.torque_Nm * model_.transmission_rad_per_m;
+/// What reaches the screw of an accepted command, mean over the tick.
+FeedAxis::Drive FeedAxis::deliver(const Drive& drive, double tick_s) noexcept {
+  tick_s_ = tick_s;
+  if (!chain_) return drive;
+  if (chain_->remembers_forces()) chain_->take_forces(true_forces(drive));
+  return {chain_->start_tick(drive.torque_Nm, drive.cutting_force_N, {elapsed_s_, tick_s, tick_s, state_, losses_}),
+          drive.cutting_force_N};
+}
+
+AxisLosses<double> FeedAxis::integrate(const Drive& drive, double tick_s) noexcept {
+  const double motor_N = drive.torque_Nm * model_.transmission_rad_per_m;
+  if (!chain_) {
+    NoEffects<double> none;
+    return integrate_tick<double>(model_, state_, none, motor_N - drive.cutting_force_N, tick_s, resolution_);
+  }
+  const double on_screw_N = chain_->has_table() ? 0.0 : drive.cutting_force_N;
+  const double guide_J = chain_->guide_J();
+  const double stop_J = chain_->stop_J();
+  auto taken = integrate_tick<double>(driven_, state_, *chain_, motor_N - on_screw_N, tick_s, resolution_);
+  taken.guide_J += chain_->guide_J() - guide_J;
+  taken.stop_J += chain_->stop_J() - stop_J;
+  return taken;
+}
+
+const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noexcept FEEDTWIN_REALTIME {
+  const Drive accepted = accept(command);
+  clipped_inputs_ += (accepted.torque_Nm != command.torque_Nm) + (accepted.cutting_force_N != command.cutting_force_N);
+  const double ripple_before_J = chain_ ? chain_->motor_torque_J() : 0.0;
+  const Drive drive = deliver(accepted, tick_s);
   const double before_m = state_.position_m;
-  const AxisLosses<double> taken =
-      integrate_tick<double>(model_, state_, effects_, motor_force_N - drive.cutting_force_N, tick_s, resolution_);
+  const double table_before_m = table_position_m();
+  const AxisLosses<double> taken = integrate(drive, tick_s);
   losses_ += taken;
   elapsed_s_ += tick_s;
-  const double travel_m = state_.position_m - before_m;
-  const double work_J = motor_force_N * travel_m;
+  const double motor_force_N = drive.torque_Nm * model_.transmission_rad_per_m;
+  const double rippling_J = chain_ ? chain_->motor_torque_J() - ripple_before_J : 0.0;
+  const double work_J = motor_force_N * (state_.position_m - before_m) - rippling_J;
+  const double cutting_J = drive.cutting_force_N * (table_position_m() - table_before_m);
   input_work_J_ += work_J;
-  throughput_J_ += std::abs(work_J) + std::abs(drive.cutting_force_N * travel_m);
-  cutting_J_ += drive.cutting_force_N * travel_m;
+  throughput_J_ += std::abs(work_J) + std::abs(cutting_J);
+  cutting_J_ += cutting_J;
 
-  const std::int64_t counts = encoder_.counts(state_.position_m);
-  signals_.index_passed = encoder_.index_between(signals_.encoder_counts, counts);
-  signals_.encoder_counts = counts;
-  signals_.position_m = state_.position_m;
-  signals_.scale_position_m = state_.position_m;
   signals_.velocity_m_per_s = state_.velocity_m_per_s;
   signals_.torque_Nm = drive.torque_Nm;
-  signals_.power_W = (electrical_loss_J(taken, tick_s) + work_J) / tick_s;
+  const double power_W = (electrical_loss_J(taken, tick_s) + work_J) / tick_s;
+  signals_.power_W = chain_ ? chain_->power_W({power_W, drive.torque_Nm, tick_s}) : power_W;
+  effect_power_J_ += (signals_.power_W - power_W) * tick_s;
   signals_.metered_power_W = power_meter_.update(signals_.power_W, tick_s);
+  sense();
   return signals_;
 }
 
-ForceSignals FeedAxis::force_sensors(const AxisCommand& acting) const noexcept {
-  const Drive drive = accept(acting);
-  const double drive_N = drive.torque_Nm * model_.transmission_rad_per_m - drive.cutting_force_N;
+/// What encoder and scale show.
+void FeedAxis::sense() noexcept {
+  SensedTravel travel{state_.position_m, table_position_m()};
+  if (chain_) chain_->sense(travel);
+  std::int64_t counts = true_encoder_.counts(travel.shaft_m);
+  if (chain_) counts = chain_->counts(counts);
+  signals_.index_passed = encoder_.index_between(signals_.encoder_counts, counts);
+  signals_.encoder_counts = counts;
+  signals_.position_m = state_.position_m;
+  signals_.scale_position_m = travel.scale_m;
+  if (chain_) chain_->show(signals_);
+}
+
+ForceSignals FeedAxis::force_sensors(const AxisCommand& acting) const noexcept FEEDTWIN_REALTIME {
+  ForceSignals forces = true_forces(accept(acting));
+  if (chain_) chain_->show_forces(forces);
+  return forces;
+}
+
+ForceSignals FeedAxis::true_forces(const Drive& drive) const noexcept {
+  constexpr double instant_s = 1e-9;
+  double torque_Nm = drive.torque_Nm;
+  EffectChain::Instant extra{};
+  if (chain_) {
+    torque_Nm = chain_->torque_Nm(torque_Nm, {elapsed_s_, tick_s_, instant_s, state_, losses_});
+    extra = chain_->instant(state_, torque_Nm, drive.cutting_force_N);
+  }
+  const bool hanging = chain_ && chain_->has_table();
   const double v = state_.velocity_m_per_s;
   const bool positive = v > 0.0;
-  const auto& both = model_.contacts.both;
-  const Doubles<2> friction = lugre_force_N<Doubles<2>>(both.bristle, positive ? both.pos : both.neg, Doubles<2>{} + v,
+  const auto& both = driven_.contacts.both;
+  LugreSide<Doubles<2>> side = positive ? both.pos : both.neg;
+  side.coulomb_N *= Doubles<2>{extra.scale.screw_sliding, extra.scale.guide_sliding};
+  side.stribeck_rise_N *= Doubles<2>{extra.scale.screw_sliding, extra.scale.guide_sliding};
+  side.viscous_Ns_per_m *= Doubles<2>{extra.scale.screw_viscous, extra.scale.guide_viscous};
+  const Doubles<2> friction = lugre_force_N<Doubles<2>>(both.bristle, side, Doubles<2>{} + v,
                                                         Doubles<2>{state_.screw_bristle_m, state_.guide_bristle_m});
-  const double stop_N = end_stop_load<double>(model_, state_.position_m, v, 0.0).force_N;
+  const double stop_N = end_stop_load<double>(driven_, state_.position_m, v, 0.0).force_N;
+  const double on_table_N =
+      hanging ? chain_->table().force_N(state_.position_m, v) : friction[1] + stop_N + extra.table_N + drive.cutting_force_N;
   double acceleration = 0.0;  // at rest the motor's Coulomb friction holds
   if (v != 0.0) {
-    const double coulomb = positive ? model_.coulomb_pos_N : -model_.coulomb_neg_N;
-    const double damping = positive ? model_.damping_pos_Ns_per_m : model_.damping_neg_Ns_per_m;
-    acceleration = (drive_N - coulomb - damping * v - friction[0] - friction[1] - stop_N) / model_.mass_kg;
+    const double coulomb = positive ? driven_.coulomb_pos_N : -driven_.coulomb_neg_N;
+    const double damping = positive ? driven_.damping_pos_Ns_per_m : driven_.damping_neg_Ns_per_m;
+    acceleration = (torque_Nm * driven_.transmission_rad_per_m - extra.motor_N - coulomb - damping * v - friction[0] -
+                    extra.screw_N - on_table_N) /
+                   driven_.mass_kg;
   }
-  const double table_N = model_.table_mass_kg * acceleration + friction[1] + stop_N + drive.cutting_force_N;
-  const double screw_N = model_.screw_mass_kg * acceleration + friction[0] + table_N;
-  return {screw_N / model_.transmission_rad_per_m, table_N};
+  const double table_N = on_table_N + driven_.table_mass_kg * acceleration;
+  const double screw_N = driven_.screw_mass_kg * acceleration + friction[0] + extra.screw_N + table_N;
+  return {screw_N / driven_.transmission_rad_per_m, table_N};
 }
 
 AxisEnergy FeedAxis::energy() const noexcept {
-  const double half_speed_squared =
-      0.5 * (state_.velocity_m_per_s * state_.velocity_m_per_s - initial_speed_squared_m2_per_s2_);
-  const auto& stiffness = model_.contacts.both.bristle.stiffness_N_per_m;
-  const double stored_J = 0.5 * (stiffness[0] * state_.screw_bristle_m * state_.screw_bristle_m +
-                                 stiffness[1] * state_.guide_bristle_m * state_.guide_bristle_m);
+  const bool hanging = chain_ && chain_->has_table();
+  const double v = state_.velocity_m_per_s;
+  const double table_v = hanging ? chain_->table().velocity_m_per_s() : v;
+  const double half_speed_squared = 0.5 * (v * v - initial_speed_squared_m2_per_s2_);
+  const double table_half_speed_squared = 0.5 * (table_v * table_v - initial_speed_squared_m2_per_s2_);
+  const double driven_mass_kg = model_.mass_kg - model_.table_mass_kg;
+  const EffectChain::Work effects = chain_ ? chain_->work(state_) : EffectChain::Work{};
+  const auto& stiffness = driven_.contacts.both.bristle.stiffness_N_per_m;
+  const double bristles_J = 0.5 * (stiffness[0] * state_.screw_bristle_m * state_.screw_bristle_m +
+                                   stiffness[1] * state_.guide_bristle_m * state_.guide_bristle_m) +
+                            (hanging ? chain_->table().bristle_J() : 0.0);
   AxisEnergy energy;
-  energy.motor_electrical_J = electrical_loss_J(losses_, elapsed_s_);
-  energy.motor_mechanical_J = losses_.motor_J + model_.motor_mass_kg * half_speed_squared;
-  energy.ball_screw_J = losses_.screw_J + model_.screw_mass_kg * half_speed_squared;
-  energy.guide_J = losses_.guide_J + model_.table_mass_kg * half_speed_squared;
+  energy.motor_electrical_J = electrical_loss_J(losses_, elapsed_s_) + effect_power_J_;
+  energy.motor_mechanical_J = losses_.motor_J + model_.motor_mass_kg * half_speed_squared + effects.motor_J;
+  energy.ball_screw_J = losses_.screw_J + model_.screw_mass_kg * half_speed_squared + effects.screw_J;
+  energy.guide_J = losses_.guide_J + model_.table_mass_kg * table_half_speed_squared + effects.guide_J;
   energy.cutting_J = cutting_J_;
   energy.end_stop_J = losses_.stop_J;
+  energy.load_J = effects.load_J;
   energy.input_work_J = input_work_J_;
-  energy.throughput_J = throughput_J_;
-  energy.kinetic_J = model_.mass_kg * half_speed_squared;
-  energy.stored_J = stored_J;
-  energy.lost_J = losses_.motor_J + losses_.screw_J + losses_.guide_J - stored_J;
+  energy.throughput_J = throughput_J_ + effects.magnitude_J;
+  energy.kinetic_J = driven_mass_kg * half_speed_squared + model_.table_mass_kg * table_half_speed_squared;
+  energy.stored_J = bristles_J + effects.stored_J;
+  energy.lost_J = losses_.motor_J + losses_.screw_J + losses_.guide_J - bristles_J + effects.lost_J;
   return energy;
 }
 

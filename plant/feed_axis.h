@@ -2,13 +2,16 @@
 // One feed axis: motor, ball screw, linear guide and table, its sensors and its energy account.
 
 #include <cstdint>
+#include <memory>
 
 #include "plant/axis_model.h"
+#include "plant/effects/chain.h"
 #include "plant/encoder.h"
 #include "plant/energy.h"
 #include "plant/integrator.h"
 #include "plant/parameters.h"
 #include "plant/power_meter.h"
+#include "plant/realtime.h"
 #include "plant/signals.h"
 
 namespace feedtwin::plant {
@@ -18,20 +21,27 @@ inline constexpr double largest_cutting_force_N = 1e6;
 
 class FeedAxis {
  public:
+  /// Throws std::invalid_argument when an effect of the parameters is unknown or its setting does not fit.
   explicit FeedAxis(const AxisParameters& parameters, Resolution resolution = one_count);
 
   /// Advance by one tick; the command is held for its length. Non-finite input counts as zero, input beyond the limits is
-  /// clipped; both are counted. Wait-free; at most Resolution's sub-steps + extra_substeps evaluations.
-  const AxisSignals& step(const AxisCommand& command, double tick_s) noexcept;
+  /// clipped; both are counted. Wait-free; at most Resolution's sub-steps + extra_substeps evaluations. Effects may ask
+  /// for more sub-steps (EffectChain::at_least).
+  const AxisSignals& step(const AxisCommand& command, double tick_s) noexcept FEEDTWIN_REALTIME;
 
   [[nodiscard]] const AxisSignals& signals() const noexcept { return signals_; }
   [[nodiscard]] const AxisState<double>& state() const noexcept { return state_; }
   [[nodiscard]] const AxisModel<double>& model() const noexcept { return model_; }
   [[nodiscard]] const AxisParameters& parameters() const noexcept { return parameters_; }
+  /// As the configuration has it.
   [[nodiscard]] const Encoder& encoder() const noexcept { return encoder_; }
+  /// Where the table is: apart from state() only where an effect puts a gap or a spring between screw and table.
+  [[nodiscard]] double table_position_m() const noexcept {
+    return chain_ ? chain_->table_position_m(state_) : state_.position_m;
+  }
   /// Torque and force sensor at this instant with `acting` as the command, as a recording samples them at the start of a
   /// tick. Costs a third of a step, so only where it is asked for. Wait-free.
-  [[nodiscard]] ForceSignals force_sensors(const AxisCommand& acting) const noexcept;
+  [[nodiscard]] ForceSignals force_sensors(const AxisCommand& acting) const noexcept FEEDTWIN_REALTIME;
   [[nodiscard]] AxisEnergy energy() const noexcept;
   [[nodiscard]] std::int64_t clipped_inputs() const noexcept { return clipped_inputs_; }
 
@@ -39,25 +49,35 @@ class FeedAxis {
   void place(double position_m, double velocity_m_per_s = 0.0) noexcept;
 
  private:
+  FeedAxis(const AxisParameters& nominal, const AxisParameters& true_axis, Resolution resolution);
+
   struct Drive {
     double torque_Nm, cutting_force_N;
   };
   [[nodiscard]] Drive accept(const AxisCommand& command) const noexcept;
+  [[nodiscard]] Drive deliver(const Drive& drive, double tick_s) noexcept;
+  [[nodiscard]] AxisLosses<double> integrate(const Drive& drive, double tick_s) noexcept;
+  void sense() noexcept;
+  [[nodiscard]] ForceSignals true_forces(const Drive& drive) const noexcept;
   [[nodiscard]] double electrical_loss_J(const AxisLosses<double>& losses, double duration_s) const noexcept;
 
   AxisParameters parameters_;
   AxisModel<double> model_;
+  std::unique_ptr<EffectChain> chain_;  ///< none where no effect runs in the tick
+  AxisModel<double> driven_;            ///< what the integrator moves: the model, less a table that hangs on a spring
   Resolution resolution_;
   AxisState<double> state_;
   AxisLosses<double> losses_;
-  NoEffects<double> effects_;
-  Encoder encoder_;
+  Encoder encoder_;       ///< as the configuration has it
+  Encoder true_encoder_;  ///< as the screw turns it (wrong_lead)
   PowerMeter power_meter_;
   AxisSignals signals_;
+  double tick_s_ = 1e-3;  ///< of the last step
   double elapsed_s_ = 0.0;
   double input_work_J_ = 0.0;
   double throughput_J_ = 0.0;
   double cutting_J_ = 0.0;
+  double effect_power_J_ = 0.0;  ///< drive input that effects add
   double initial_speed_squared_m2_per_s2_ = 0.0;
   std::int64_t clipped_inputs_ = 0;
 };

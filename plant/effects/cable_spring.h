@@ -13,29 +13,16 @@ namespace feedtwin::plant::effects {
 
 class CableSpring final : public Effect {
  public:
-  CableSpring(const EffectContext& context, const EffectSetting& setting)
-      : stiffness_N_per_m_(setting.values[0]), neutral_m_(setting.values[1]) {
-    reset(context.axis.axis.stroke_centre_m);
-  }
-
-  void reset(double position_m) noexcept override { start_m_ = position_m_ = position_m; }
+  CableSpring(const EffectContext& /*context*/, const EffectSetting& setting)
+      : stiffness_N_per_m_(setting.values[0]), neutral_m_(setting.values[1]) {}
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
     const double half_s = 0.5 * m.h_s;
     return {stiffness_N_per_m_ * (m.position_m + half_s * m.velocity_m_per_s - neutral_m_), stiffness_N_per_m_ * half_s};
   }
 
-  void advance(const EffectMotion& m) noexcept override { position_m_ = m.position_m + m.velocity_m_per_s * m.h_s; }
-
-  [[nodiscard]] double stored_J() const noexcept override {
-    const double now_m = position_m_ - neutral_m_;
-    const double then_m = start_m_ - neutral_m_;
-    return 0.5 * stiffness_N_per_m_ * (now_m * now_m - then_m * then_m);
-  }
-
  private:
   double stiffness_N_per_m_, neutral_m_;
-  double start_m_ = 0.0, position_m_ = 0.0;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

@@ -21,21 +21,30 @@ class ChannelSkew final : public Effect {
     past_[0].fill(position_m);
   }
   void tick(const TickStart& start) noexcept override { tick_s_ = start.tick_s; }
-  void show(AxisSignals& signals, ForceSignals& forces) noexcept override {
-    delay(0, delay_s_[0], signals.scale_position_m);
-    delay(1, delay_s_[1], forces.torque_sensor_Nm);
-    delay(2, delay_s_[2], forces.force_sensor_N);
-    delay(3, delay_s_[3], signals.metered_power_W);
-    delay(4, delay_s_[3], signals.power_W);
+  void show(AxisSignals& signals) noexcept override {
+    late(0, delay_s_[0], signals.scale_position_m);
+    late(3, delay_s_[3], signals.metered_power_W);
+    late(4, delay_s_[3], signals.power_W);
+  }
+  void show_forces(ForceSignals& forces) const noexcept override {
+    forces = {ago(1, delay_s_[1], forces.torque_sensor_Nm), ago(2, delay_s_[2], forces.force_sensor_N)};
+  }
+  void take_forces(const ForceSignals& forces) noexcept override {
+    past_[1].push(forces.torque_sensor_Nm);
+    past_[2].push(forces.force_sensor_N);
   }
 
  private:
-  void delay(std::size_t channel, double delay_s, double& value) noexcept {
-    past_[channel].push(value);
-    const double ticks = std::min(delay_s / tick_s_, Past::longest - 1.0);
+  [[nodiscard]] double ago(std::size_t channel, double delay_s, double newest) const noexcept {
+    const double ticks = std::min(delay_s / tick_s_, static_cast<double>(Past::longest));
     const int whole = static_cast<int>(ticks);
-    const double later = past_[channel].ago(whole);
-    value = later + (ticks - whole) * (past_[channel].ago(whole + 1) - later);
+    const double later = whole == 0 ? newest : past_[channel].ago(whole - 1);
+    return later + (ticks - whole) * (past_[channel].ago(whole) - later);
+  }
+  void late(std::size_t channel, double delay_s, double& value) noexcept {
+    const double shown = ago(channel, delay_s, value);
+    past_[channel].push(value);
+    value = shown;
   }
 
   std::array<double, 4> delay_s_{};

@@ -1,6 +1,29 @@
 #pragma once
-// placeholder
+// A second mass: the table hangs on the screw by a spring with play, and carries the guide's friction.
+//
+//   d = x_screw - x_table,   e(d) = d beyond the gap (0 within),   U = k e^2 / 2
+//   M_L dv_t/dt = F - F_guide(v_t) - F_table,   F = dU/dd + c dd/dt while in contact, and F never pulls
+//
+// Over a sub-step with the screw's mean velocity w and the table's w_t, s = h (w - w_t):
+//
+//   F = (U(d + s) - U(d)) / s + c s / h          (discrete gradient: no energy is made where a flank is hit)
+//   2 M_L (w_t - v_t) / h = F - F_guide(w_t) - F_table(w_t)
+//
+// The table's equation is solved for w_t at the predicted w, and its dependence on w eliminated linearly:
+//
+//   dF/dw = K A / (A + K),   K = dF/dw at fixed w_t,   A = 2 M_L / h + slopes of guide and table
+//
+// so that the integrator sees a force with a bounded slope, whatever the stiffness. When the screw's real w is known the
+// table is settled again, so that it never ends up inside a flank.
+//
+// Where a sub-step is too long for the swing (omega h > 2), force and mean velocity lean towards the end of the sub-step,
+// up to backward Euler: stable at any stiffness, and what that takes is counted as lost in the spring.
+
+#include <algorithm>
+#include <cmath>
+
 #include "plant/effects/effect.h"
+#include "plant/integrator.h"
 
 namespace feedtwin::plant {
 
@@ -11,5 +34,84 @@ namespace feedtwin::plant {
   return {a.gap_m + b.gap_m, together(a.stiffness_N_per_m, b.stiffness_N_per_m),
           together(a.damping_Ns_per_m, b.damping_Ns_per_m)};
 }
+
+/// Spring force of the contact over a path, and its slopes.
+struct ContactForce {
+  double force_N, slope_Ns_per_m;
+};
+
+class Coupling {
+ public:
+  Coupling(const CouplingParameters& parameters, const AxisModel<double>& model) noexcept;
+
+  void place(double position_m, double velocity_m_per_s) noexcept;
+
+  /// The table's motion as predicted for this sub-step: what its effects are asked with.
+  [[nodiscard]] double predicted_velocity_m_per_s(double h_s) const noexcept FEEDTWIN_REALTIME {
+    return velocity_m_per_s_ + 0.5 * h_s * acceleration_m_per_s2_;
+  }
+
+  /// Force on the screw over a sub-step. @param load what acts on the table beside guide and stops, at the predicted motion
+  [[nodiscard]] EffectLoad respond(const EffectMotion& screw, const EffectLoad& load,
+                                   const FrictionScale<double>& scale) noexcept FEEDTWIN_REALTIME;
+
+  /// The sub-step is over: the screw moved with this mean velocity. Returns the table's.
+  double finish(double screw_velocity_m_per_s) noexcept FEEDTWIN_REALTIME;
+
+  /// Force now, between nut and table.
+  [[nodiscard]] double force_N(double screw_position_m, double screw_velocity_m_per_s) const noexcept FEEDTWIN_REALTIME;
+
+  [[nodiscard]] double position_m() const noexcept { return position_m_; }
+  [[nodiscard]] double velocity_m_per_s() const noexcept { return velocity_m_per_s_; }
+  [[nodiscard]] double acceleration_m_per_s2() const noexcept { return acceleration_m_per_s2_; }
+  [[nodiscard]] double guide_J() const noexcept { return guide_J_; }  ///< work on the guide's friction
+  [[nodiscard]] double stop_J() const noexcept { return stop_J_; }    ///< on the end stops
+  [[nodiscard]] double own_J() const noexcept { return own_J_; }      ///< on spring and damper
+  /// In the spring.
+  [[nodiscard]] double spring_J(double screw_position_m) const noexcept {
+    const double e_m = beyond_gap_m(screw_position_m - position_m_);
+    return 0.5 * parameters_.stiffness_N_per_m * e_m * e_m;
+  }
+  /// In the guide's bristles.
+  [[nodiscard]] double bristle_J() const noexcept { return 0.5 * guide_.stiffness_N_per_m * bristle_m_ * bristle_m_; }
+
+ private:
+  struct Trial {
+    double screw_x, screw_w, h_s;
+    double table_w;                 ///< linearised about
+    double settled_w;               ///< the table's, at screw_w
+    EffectLoad force;               ///< on the screw, about screw_w
+    double others_N, others_slope;  ///< inertia, guide, stops and loads of the table, about table_w
+    LugreStep<double> guide;
+    ExtraLoad<double> stop;
+  };
+  [[nodiscard]] double beyond_gap_m(double d_m) const noexcept {
+    return std::max(d_m - half_gap_m_, 0.0) + std::min(d_m + half_gap_m_, 0.0);
+  }
+  /// 0 while a sub-step resolves the swing (omega h <= 2), towards 1 the longer it is.
+  [[nodiscard]] double too_long(double h_s) const noexcept {
+    const double square = rate_squared_per_s2_ * h_s * h_s;
+    return square > 4.0 ? 1.0 - 4.0 / square : 0.0;
+  }
+  /// Weight of the end velocity in the mean: 1/2 is the mid-point rule, 1 backward Euler.
+  [[nodiscard]] double end_weight(double h_s) const noexcept { return 0.5 + 0.5 * too_long(h_s); }
+  [[nodiscard]] ContactForce contact(double d_m, double rate_m_per_s, double h_s) const noexcept;
+  void balance(double w_table, const EffectLoad& load, double load_at, const FrictionScale<double>& scale) noexcept;
+  [[nodiscard]] double settle(double screw_w, double table_w) noexcept;
+  /// Inertia, guide, stops and loads of the table at a mean velocity.
+  [[nodiscard]] double table_side_N(double w) const noexcept {
+    return trial_.others_N + trial_.others_slope * (w - trial_.table_w);
+  }
+
+  CouplingParameters parameters_;
+  double half_gap_m_, mass_kg_;
+  double rate_squared_per_s2_;  ///< omega^2 of screw against table
+  AxisModel<double> stops_;     ///< its end stops
+  LugreBristle<double> guide_;
+  LugreSide<double> pos_, neg_;
+  double position_m_ = 0.0, velocity_m_per_s_ = 0.0, acceleration_m_per_s2_ = 0.0, bristle_m_ = 0.0;
+  double guide_J_ = 0.0, stop_J_ = 0.0, own_J_ = 0.0;
+  Trial trial_{};
+};
 
 }  // namespace feedtwin::plant

@@ -18,32 +18,34 @@ class CurrentLoopLag final : public Effect {
   CurrentLoopLag(const EffectContext& context, const EffectSetting& setting)
       : transmission_rad_per_m_(context.model.transmission_rad_per_m), time_constant_s_(setting.values[0]) {}
 
-  void reset(double /*position_m*/) noexcept override { start_Nm_ = end_Nm_ = command_Nm_ = mean_Nm_ = 0.0; }
+  void reset(double /*position_m*/) noexcept override { start_Nm_ = end_Nm_ = command_Nm_ = tick_mean_Nm_ = 0.0; }
 
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& start) noexcept override {
-    if (time_constant_s_ == 0.0) return torque_Nm;
+  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& start) const noexcept override {
+    return time_constant_s_ == 0.0 ? torque_Nm : mean_Nm(torque_Nm, end_Nm_, 0.0, start.span_s);
+  }
+  void take_torque(double torque_Nm, const TickStart& start) noexcept override {
+    if (time_constant_s_ == 0.0) return;
     start_Nm_ = end_Nm_;
     command_Nm_ = torque_Nm;
-    mean_Nm_ = mean_Nm(0.0, start.tick_s);
-    end_Nm_ = torque_Nm + (start_Nm_ - torque_Nm) * std::exp(-start.tick_s / time_constant_s_);
-    return mean_Nm_;
+    tick_mean_Nm_ = mean_Nm(command_Nm_, start_Nm_, 0.0, start.tick_s);
+    end_Nm_ = command_Nm_ + (start_Nm_ - command_Nm_) * std::exp(-start.tick_s / time_constant_s_);
   }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
     if (time_constant_s_ == 0.0) return {};
-    return {transmission_rad_per_m_ * (mean_Nm_ - mean_Nm(m.tick_phase_s, m.h_s)), 0.0};
+    return {transmission_rad_per_m_ * (tick_mean_Nm_ - mean_Nm(command_Nm_, start_Nm_, m.tick_phase_s, m.h_s)), 0.0};
   }
 
  private:
-  /// Mean torque of this tick from `from_s` after its start, over h.
-  [[nodiscard]] double mean_Nm(double from_s, double h_s) const noexcept {
+  /// Mean torque from `from_s` after the start of a tick, over h.
+  [[nodiscard]] double mean_Nm(double command_Nm, double start_Nm, double from_s, double h_s) const noexcept {
     const double y = h_s / time_constant_s_;
     const double left = std::exp(-from_s / time_constant_s_) * (y > 1e-6 ? -std::expm1(-y) / y : 1.0 - 0.5 * y);
-    return command_Nm_ + (start_Nm_ - command_Nm_) * left;
+    return command_Nm + (start_Nm - command_Nm) * left;
   }
 
   double transmission_rad_per_m_, time_constant_s_;
-  double start_Nm_ = 0.0, end_Nm_ = 0.0, command_Nm_ = 0.0, mean_Nm_ = 0.0;
+  double start_Nm_ = 0.0, end_Nm_ = 0.0, command_Nm_ = 0.0, tick_mean_Nm_ = 0.0;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

@@ -21,6 +21,7 @@ struct EffectContext {
 /// The axis at the start of a tick.
 struct TickStart {
   double time_s, tick_s;
+  double span_s;  ///< over what a torque is averaged: the tick, or next to nothing for the torque at its start
   const AxisState<double>& state;
   const AxisLosses<double>& losses;  ///< since the start
 };
@@ -31,6 +32,7 @@ struct EffectMotion {
   double velocity_m_per_s;  ///< mean over it: predicted in load() and scale(), real in advance()
   double sign;              ///< direction of motion, +1 or -1; at rest the direction that is tried
   double acceleration_m_per_s2;
+  double torque_Nm;     ///< the motor's, mean over the tick
   double table_load_N;  ///< in scale() alone: all on the table but its inertia and the guide's friction
   double h_s;
   double time_s;        ///< since the axis was placed, at the start of the sub-step
@@ -77,10 +79,12 @@ class Effect {
 
   /// Once at the start of a tick.
   virtual void tick(const TickStart& /*start*/) noexcept FEEDTWIN_REALTIME {}
-  /// The motor's torque (mean over the tick) from what the stage before hands over.
-  [[nodiscard]] virtual double torque_Nm(double torque_Nm, const TickStart& /*start*/) noexcept FEEDTWIN_REALTIME {
+  /// Torque that this stage makes of what the stage before hands over from now on, mean over the start's span.
+  [[nodiscard]] virtual double torque_Nm(double torque_Nm, const TickStart& /*start*/) const noexcept FEEDTWIN_REALTIME {
     return torque_Nm;
   }
+  /// The tick runs with this torque handed over: for stages that remember.
+  virtual void take_torque(double /*torque_Nm*/, const TickStart& /*start*/) noexcept FEEDTWIN_REALTIME {}
   /// Mean force over a sub-step; may be asked several times a sub-step.
   [[nodiscard]] virtual EffectLoad load(const EffectMotion& /*motion*/) const noexcept FEEDTWIN_REALTIME { return {}; }
   /// Changes friction over a sub-step; may be asked several times a sub-step.
@@ -92,16 +96,19 @@ class Effect {
   [[nodiscard]] virtual std::int64_t counts(std::int64_t counts) noexcept FEEDTWIN_REALTIME { return counts; }
   /// Drive input power, mean over the tick.
   [[nodiscard]] virtual double power_W(const TickPower& power) noexcept FEEDTWIN_REALTIME { return power.power_W; }
-  /// All that is shown, last thing in a tick.
-  virtual void show(AxisSignals& /*signals*/, ForceSignals& /*forces*/) noexcept FEEDTWIN_REALTIME {}
+  /// Signals as they are shown, last thing in a tick.
+  virtual void show(AxisSignals& /*signals*/) noexcept FEEDTWIN_REALTIME {}
+  /// Forces as they are shown, and for sensors that remember: the true ones at the start of each tick.
+  virtual void show_forces(ForceSignals& /*forces*/) const noexcept FEEDTWIN_REALTIME {}
+  virtual void take_forces(const ForceSignals& /*forces*/) noexcept FEEDTWIN_REALTIME {}
   /// Energy that the effect holds and can give back.
   [[nodiscard]] virtual double stored_J() const noexcept FEEDTWIN_REALTIME { return 0.0; }
 };
 
 /// Which hooks an effect overrides; found by the compiler (plant/effects/entry.h).
 struct EffectHooks {
-  bool join = false, tick = false, torque = false, load = false, scale = false, advance = false, sense = false,
-       counts = false, power = false, show = false;
+  bool join = false, tick = false, torque = false, take_torque = false, load = false, scale = false, advance = false,
+       sense = false, counts = false, power = false, show = false, show_forces = false, take_forces = false;
 };
 
 }  // namespace feedtwin::plant

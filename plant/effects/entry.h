@@ -20,11 +20,12 @@ enum class EffectComponent : std::uint8_t { motor, drive, ball_screw, guide, loa
 
 /// Where the work of an effect's force goes.
 enum class EffectWork : std::uint8_t {
-  none,         ///< no force of its own
-  dissipates,   ///< never gives back more than it holds
-  conserves,    ///< gives back all that it took
-  exchanges,    ///< with the world outside
-  motor_torque  ///< part of what the motor delivers
+  none,             ///< no force of its own
+  dissipates,       ///< never gives back more than it holds
+  conserves,        ///< gives back all that it took
+  alters_friction,  ///< of a contact: only together with the nominal friction does it dissipate
+  exchanges,        ///< with the world outside
+  motor_torque      ///< part of what the motor delivers
 };
 
 /// One number of an effect.
@@ -67,13 +68,16 @@ consteval EffectHooks hooks_of() {
   return {.join = !std::is_same_v<decltype(&E::join), decltype(&Effect::join)>,
           .tick = !std::is_same_v<decltype(&E::tick), decltype(&Effect::tick)>,
           .torque = !std::is_same_v<decltype(&E::torque_Nm), decltype(&Effect::torque_Nm)>,
+          .take_torque = !std::is_same_v<decltype(&E::take_torque), decltype(&Effect::take_torque)>,
           .load = !std::is_same_v<decltype(&E::load), decltype(&Effect::load)>,
           .scale = !std::is_same_v<decltype(&E::scale), decltype(&Effect::scale)>,
           .advance = !std::is_same_v<decltype(&E::advance), decltype(&Effect::advance)>,
           .sense = !std::is_same_v<decltype(&E::sense), decltype(&Effect::sense)>,
           .counts = !std::is_same_v<decltype(&E::counts), decltype(&Effect::counts)>,
           .power = !std::is_same_v<decltype(&E::power_W), decltype(&Effect::power_W)>,
-          .show = !std::is_same_v<decltype(&E::show), decltype(&Effect::show)>};
+          .show = !std::is_same_v<decltype(&E::show), decltype(&Effect::show)>,
+          .show_forces = !std::is_same_v<decltype(&E::show_forces), decltype(&Effect::show_forces)>,
+          .take_forces = !std::is_same_v<decltype(&E::take_forces), decltype(&Effect::take_forces)>};
 }
 
 }  // namespace feedtwin::plant

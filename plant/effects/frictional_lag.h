@@ -80,7 +80,7 @@ inline constexpr std::array frictional_lag_parameters{
 inline constexpr EffectEntry frictional_lag{
     .id = "frictional_lag",
     .component = EffectComponent::ball_screw,
-    .work = EffectWork::none,
+    .work = EffectWork::alters_friction,
     .meaning = "friction follows a change of speed late",
     .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm force_sensor_N",
     .confused_with = "input_delay current_loop_lag channel_skew",

@@ -11,17 +11,11 @@ namespace feedtwin::plant::effects {
 
 class Gravity final : public Effect {
  public:
-  Gravity(const EffectContext& context, const EffectSetting& setting) : force_N_(setting.values[0]) {
-    reset(context.axis.axis.stroke_centre_m);
-  }
-  void reset(double position_m) noexcept override { start_m_ = position_m_ = position_m; }
+  Gravity(const EffectContext& /*context*/, const EffectSetting& setting) : force_N_(setting.values[0]) {}
   [[nodiscard]] EffectLoad load(const EffectMotion& /*motion*/) const noexcept override { return {force_N_, 0.0}; }
-  void advance(const EffectMotion& m) noexcept override { position_m_ = m.position_m + m.velocity_m_per_s * m.h_s; }
-  [[nodiscard]] double stored_J() const noexcept override { return force_N_ * (position_m_ - start_m_); }
 
  private:
   double force_N_;
-  double start_m_ = 0.0, position_m_ = 0.0;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

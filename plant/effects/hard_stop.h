@@ -3,44 +3,56 @@
 //
 //   F = k d + c v  while the table is beyond the place by d and F pushes back, else 0
 //
-// k = stiffness_N_per_m, c = damping_Ns_per_m. The law is that of the end stops (plant/integrator.h).
+// k = stiffness_N_per_m, c = damping_Ns_per_m.
 
 #include <algorithm>
 #include <array>
 
+#include "plant/effects/contact_spring.h"
 #include "plant/effects/entry.h"
-#include "plant/integrator.h"
 
 namespace feedtwin::plant::effects {
 
 class HardStop final : public Effect {
  public:
-  HardStop(const EffectContext& context, const EffectSetting& setting) {
-    const bool above = setting.values[1] >= 0.0;
-    constexpr double nowhere_m = 1e9;
-    stop_.stop_high_m = above ? setting.values[0] : nowhere_m;
-    stop_.stop_low_m = above ? -nowhere_m : setting.values[0];
-    stop_.stop_stiffness_N_per_m = setting.values[2];
-    stop_.stop_damping_Ns_per_m = setting.values[2] > 0.0 ? setting.values[3] : 0.0;
+  HardStop(const EffectContext& context, const EffectSetting& setting)
+      : place_m_(setting.values[0]),
+        direction_(setting.values[1] < 0.0 ? -1.0 : 1.0),
+        stiffness_N_per_m_(setting.values[2]),
+        damping_Ns_per_m_(setting.values[2] > 0.0 ? setting.values[3] : 0.0) {
     reset(context.axis.axis.stroke_centre_m);
   }
+
   void reset(double position_m) noexcept override {
     position_m_ = position_m;
     start_J_ = spring_J();
   }
+
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    const auto stop = end_stop_load<double>(stop_, m.position_m, m.velocity_m_per_s, m.h_s);
-    return {stop.force_N, stop.force_slope_Ns_per_m};
+    const double path_m = m.velocity_m_per_s * m.h_s;
+    const double middle_m = depth_m(m.position_m + 0.5 * path_m);
+    const SpringMean spring =
+        spring_mean(stiffness_N_per_m_, depth_m(m.position_m), middle_m, depth_m(m.position_m + path_m), path_m);
+    const EffectLoad load{spring.force_N + (middle_m != 0.0 ? damping_Ns_per_m_ * m.velocity_m_per_s : 0.0),
+                          spring.slope_N_per_m * m.h_s + (middle_m != 0.0 ? damping_Ns_per_m_ : 0.0)};
+    return load.force_N * direction_ < 0.0 ? EffectLoad{} : load;
   }
+
   void advance(const EffectMotion& m) noexcept override { position_m_ = m.position_m + m.velocity_m_per_s * m.h_s; }
+
   [[nodiscard]] double stored_J() const noexcept override { return spring_J() - start_J_; }
 
  private:
-  [[nodiscard]] double spring_J() const noexcept {
-    const double depth_m = std::max(position_m_ - stop_.stop_high_m, 0.0) + std::min(position_m_ - stop_.stop_low_m, 0.0);
-    return 0.5 * stop_.stop_stiffness_N_per_m * depth_m * depth_m;
+  /// Signed as the force: positive beyond the place where positive motion is stopped.
+  [[nodiscard]] double depth_m(double position_m) const noexcept {
+    return direction_ * std::max(0.0, direction_ * (position_m - place_m_));
   }
-  AxisModel<double> stop_;  ///< only its end stops
+  [[nodiscard]] double spring_J() const noexcept {
+    const double depth = depth_m(position_m_);
+    return 0.5 * stiffness_N_per_m_ * depth * depth;
+  }
+
+  double place_m_, direction_, stiffness_N_per_m_, damping_Ns_per_m_;
   double position_m_ = 0.0, start_J_ = 0.0;
 };
 
@@ -49,7 +61,7 @@ class HardStop final : public Effect {
 inline constexpr std::array hard_stop_parameters{
     EffectParameter{"position_m", "m", -100.0, 100.0, {}, {}, "table position where it begins"},
     EffectParameter{"direction", "1", -1.0, 1.0, 1.0, {}, "1: stops positive motion beyond the place; -1 (below 0): negative motion before it"},
-    EffectParameter{"stiffness_N_per_m", "N/m", 0.0, 1000000000.0, 10000000.0, 0.0, "of the obstacle"},
+    EffectParameter{"stiffness_N_per_m", "N/m", 0.0, 1e8, 1e7, 0.0, "of the obstacle"},
     EffectParameter{"damping_Ns_per_m", "N s/m", 0.0, 1000000.0, 10000.0, {}, "of the obstacle while it is touched"},
 };
 // clang-format on

@@ -16,7 +16,7 @@ class HiddenFrictionCompensation final : public Effect {
  public:
   HiddenFrictionCompensation(const EffectContext& /*context*/, const EffectSetting& setting)
       : torque_Nm_(setting.values[0]), per_speed_s_per_m_(1.0 / setting.values[1]) {}
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& start) noexcept override {
+  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& start) const noexcept override {
     return torque_Nm + torque_Nm_ * std::tanh(start.state.velocity_m_per_s * per_speed_s_per_m_);
   }
 

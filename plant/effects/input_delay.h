@@ -21,30 +21,40 @@ class InputDelay final : public Effect {
 
   void reset(double /*position_m*/) noexcept override {
     past_ = {};
-    early_Nm_ = late_Nm_ = mean_Nm_ = switch_s_ = 0.0;
+    now_ = {};
   }
 
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& start) noexcept override {
+  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& start) const noexcept override {
+    return switching(torque_Nm, start.tick_s).mean_Nm(0.0, start.span_s);
+  }
+  void take_torque(double torque_Nm, const TickStart& start) noexcept override {
+    now_ = switching(torque_Nm, start.tick_s);
+    tick_mean_Nm_ = now_.mean_Nm(0.0, start.tick_s);
     past_.push(torque_Nm);
-    const double ticks = std::min(delay_s_ / start.tick_s, past_.longest - 1.0);
-    const int whole = static_cast<int>(ticks);
-    const double broken = ticks - whole;
-    late_Nm_ = past_.ago(whole);
-    early_Nm_ = broken > 0.0 ? past_.ago(whole + 1) : late_Nm_;
-    switch_s_ = broken * start.tick_s;
-    mean_Nm_ = late_Nm_ + broken * (early_Nm_ - late_Nm_);
-    return mean_Nm_;
   }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    const double early = std::clamp((switch_s_ - m.tick_phase_s) / m.h_s, 0.0, 1.0);
-    return {transmission_rad_per_m_ * (mean_Nm_ - (late_Nm_ + early * (early_Nm_ - late_Nm_))), 0.0};
+    return {transmission_rad_per_m_ * (tick_mean_Nm_ - now_.mean_Nm(m.tick_phase_s, m.h_s)), 0.0};
   }
 
  private:
+  /// A tick's torque: one until the switch, the other after it.
+  struct Switching {
+    double early_Nm = 0.0, late_Nm = 0.0, switch_s = 0.0;
+    [[nodiscard]] double mean_Nm(double from_s, double h_s) const noexcept {
+      return late_Nm + std::clamp((switch_s - from_s) / h_s, 0.0, 1.0) * (early_Nm - late_Nm);
+    }
+  };
+  [[nodiscard]] Switching switching(double newest_Nm, double tick_s) const noexcept {
+    const double ticks = std::min(delay_s_ / tick_s, static_cast<double>(Past::longest));
+    const int whole = static_cast<int>(ticks);
+    return {past_.ago(whole), whole == 0 ? newest_Nm : past_.ago(whole - 1), (ticks - whole) * tick_s};
+  }
+
   double transmission_rad_per_m_, delay_s_;
   Past past_;
-  double early_Nm_ = 0.0, late_Nm_ = 0.0, mean_Nm_ = 0.0, switch_s_ = 0.0;
+  Switching now_;
+  double tick_mean_Nm_ = 0.0;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

@@ -18,9 +18,12 @@ class ScrewCompliance final : public Effect {
   ScrewCompliance(const EffectContext& /*context*/, const EffectSetting& setting)
       : own_{.stiffness_N_per_m = setting.values[0], .damping_Ns_per_m = setting.values[1]} {}
 
-  void join(CouplingParameters& coupling) const noexcept override { coupling = in_series(coupling, own_); }
+  void join(CouplingParameters& coupling) const noexcept override {
+    if (own_.stiffness_N_per_m < rigid_N_per_m) coupling = in_series(coupling, own_);
+  }
 
  private:
+  static constexpr double rigid_N_per_m = 1e10;  ///< from here on there is no spring
   CouplingParameters own_;
 };
 

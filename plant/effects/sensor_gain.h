@@ -13,10 +13,12 @@ class SensorGain final : public Effect {
  public:
   SensorGain(const EffectContext& /*context*/, const EffectSetting& setting)
       : scale_(setting.values[0]), torque_(setting.values[1]), force_(setting.values[2]), power_(setting.values[3]) {}
-  void show(AxisSignals& signals, ForceSignals& forces) noexcept override {
+  void show(AxisSignals& signals) noexcept override {
     signals.scale_position_m *= scale_;
     signals.metered_power_W *= power_;
     signals.power_W *= power_;
+  }
+  void show_forces(ForceSignals& forces) const noexcept override {
     forces.torque_sensor_Nm *= torque_;
     forces.force_sensor_N *= force_;
   }

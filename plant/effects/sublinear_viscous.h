@@ -46,7 +46,7 @@ inline constexpr std::array sublinear_viscous_parameters{
 inline constexpr EffectEntry sublinear_viscous{
     .id = "sublinear_viscous",
     .component = EffectComponent::ball_screw,
-    .work = EffectWork::none,
+    .work = EffectWork::alters_friction,
     .meaning = "viscous friction of the ball screw grows slower than the speed",
     .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm",
     .confused_with = "thermal_friction frictional_lag",

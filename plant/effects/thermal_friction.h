@@ -1,9 +1,10 @@
 #pragma once
 // Warm-up: the work done against friction heats the grease, and viscous friction falls.
 //
-//   mu of ball screw and guide times 1 - r (1 - exp(-W / E))
+//   mu of the ball screw times 1 - r (1 - exp(-W / E))
 //
-// r = viscous_reduction, E = energy_scale_J, W the work done on friction since the run began.
+// r = viscous_reduction, E = energy_scale_J, W the work done on the ball screw's friction since the run began: every
+// run begins cold.
 
 #include <algorithm>
 #include <array>
@@ -19,13 +20,11 @@ class ThermalFriction final : public Effect {
       : reduction_(setting.values[0]), energy_J_(setting.values[1]) {}
 
   void tick(const TickStart& start) noexcept override {
-    const double work_J = start.losses.motor_J + start.losses.screw_J + start.losses.guide_J;
-    factor_ = 1.0 - reduction_ * (1.0 - std::exp(-std::max(0.0, work_J) / energy_J_));
+    factor_ = 1.0 - reduction_ * (1.0 - std::exp(-std::max(0.0, start.losses.screw_J) / energy_J_));
   }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
     scale.screw_viscous *= factor_;
-    scale.guide_viscous *= factor_;
   }
 
  private:
@@ -45,8 +44,8 @@ inline constexpr EffectEntry thermal_friction{
     .id = "thermal_friction",
     .component = EffectComponent::ball_screw,
     .work = EffectWork::none,
-    .meaning = "viscous friction falls as the friction work warms the grease",
-    .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm force_sensor_N temperature_C",
+    .meaning = "viscous friction of the ball screw falls as its own friction work warms the grease",
+    .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm temperature_C",
     .confused_with = "friction_drift sublinear_viscous torque_gain_error",
     .exciting_move = "the same fast move repeated for minutes from cold",
     .parameters = thermal_friction_parameters,

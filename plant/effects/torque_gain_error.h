@@ -12,7 +12,7 @@ namespace feedtwin::plant::effects {
 class TorqueGainError final : public Effect {
  public:
   TorqueGainError(const EffectContext& /*context*/, const EffectSetting& setting) : gain_(1.0 + setting.values[0]) {}
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) noexcept override {
+  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) const noexcept override {
     return gain_ * torque_Nm;
   }
 

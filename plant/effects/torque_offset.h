@@ -12,7 +12,7 @@ namespace feedtwin::plant::effects {
 class TorqueOffset final : public Effect {
  public:
   TorqueOffset(const EffectContext& /*context*/, const EffectSetting& setting) : offset_Nm_(setting.values[0]) {}
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) noexcept override {
+  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) const noexcept override {
     return torque_Nm + offset_Nm_;
   }
 

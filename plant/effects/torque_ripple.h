@@ -18,19 +18,13 @@ class TorqueRipple final : public Effect {
       : per_torque_(-setting.values[0] * context.model.transmission_rad_per_m),
         wave_(context.axis.axis.lead_m, setting.values[1], setting.values[2]) {}
 
-  void reset(double /*position_m*/) noexcept override { torque_Nm_ = 0.0; }
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) noexcept override {
-    torque_Nm_ = torque_Nm;
-    return torque_Nm;
-  }
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    return wave_.mean_N(m, per_torque_ * torque_Nm_);
+    return wave_.mean_N(m, per_torque_ * m.torque_Nm);
   }
 
  private:
   double per_torque_;
   RevolutionWave wave_;
-  double torque_Nm_ = 0.0;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

@@ -13,7 +13,7 @@ namespace feedtwin::plant::effects {
 class TorqueSaturation final : public Effect {
  public:
   TorqueSaturation(const EffectContext& /*context*/, const EffectSetting& setting) : limit_Nm_(setting.values[0]) {}
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) noexcept override {
+  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) const noexcept override {
     return std::clamp(torque_Nm, -limit_Nm_, limit_Nm_);
   }
 

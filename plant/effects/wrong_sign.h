@@ -15,12 +15,12 @@ class WrongSign final : public Effect {
   WrongSign(const EffectContext& /*context*/, const EffectSetting& setting) {
     for (std::size_t i = 0; i < sign_.size(); ++i) sign_[i] = setting.values[i] < 0.0 ? -1.0 : 1.0;
   }
-  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) noexcept override {
+  [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& /*start*/) const noexcept override {
     return sign_[0] * torque_Nm;
   }
   [[nodiscard]] std::int64_t counts(std::int64_t counts) noexcept override { return sign_[1] < 0.0 ? -counts : counts; }
-  void show(AxisSignals& signals, ForceSignals& forces) noexcept override {
-    signals.scale_position_m *= sign_[2];
+  void show(AxisSignals& signals) noexcept override { signals.scale_position_m *= sign_[2]; }
+  void show_forces(ForceSignals& forces) const noexcept override {
     forces.torque_sensor_Nm *= sign_[3];
     forces.force_sensor_N *= sign_[4];
   }
