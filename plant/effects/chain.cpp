@@ -73,7 +73,10 @@ AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noex
   if (!coupling_) return without;
   without.mass_kg -= model.table_mass_kg;
   without.table_mass_kg = 0.0;
-  auto& both = without.contacts.both;  // a guide without bristles gives no force
+  auto& both = without.contacts.both;
+  without.damping_rate_pos_Hz = (model.damping_pos_Ns_per_m + both.pos.viscous_Ns_per_m[0]) / without.mass_kg;
+  without.damping_rate_neg_Hz = (model.damping_neg_Ns_per_m + both.neg.viscous_Ns_per_m[0]) / without.mass_kg;
+  // a guide without bristles gives no force
   for (auto* side : {&both.pos, &both.neg}) {
     side->coulomb_N[1] = 1.0;
     side->stribeck_rise_N[1] = 0.0;
@@ -87,11 +90,13 @@ AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noex
 }
 
 Resolution EffectChain::at_least(Resolution resolution) const noexcept {
-  constexpr int swinging = 6;  // a table that swings at 500 Hz against the screw
   constexpr int waving = 3;    // 0.1 m/s and twelve periods a revolution: half a radian a sub-step
-  const int least = coupling_ ? swinging : waving;
+  constexpr int swinging = 6;  // a table that swings at 500 Hz against the screw
+  const bool quiet = !coupling_ && screw_loads_.empty() && table_loads_.empty() && advancing_.empty();
+  const int least = coupling_ ? swinging : quiet ? 1 : waving;
   resolution.sliding = std::max(resolution.sliding, least);
-  resolution.presliding = std::max(resolution.presliding, coupling_ ? 2 * swinging : resolution.presliding);
+  resolution.settling = std::max(resolution.settling, least);
+  resolution.reversing = std::max(resolution.reversing, 2 * least);
   return resolution;
 }
 

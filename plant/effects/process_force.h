@@ -31,8 +31,8 @@ class ProcessForce final : public Effect {
 // clang-format off: a line a parameter
 inline constexpr std::array process_force_parameters{
     EffectParameter{"mean_N", "N", -100000.0, 100000.0, 0.0, 0.0, "mean force; positive: acts against positive motion"},
-    EffectParameter{"amplitude_N", "N", 0.0, 100000.0, 0.0, 0.0, "half of the alternating force from peak to peak"},
-    EffectParameter{"frequency_Hz", "Hz", 0.1, 5000.0, 100.0, {}, "teeth that pass in a second"},
+    EffectParameter{"amplitude_N", "N", 0.0, 1e4, 0.0, 0.0, "half of the alternating force from peak to peak"},
+    EffectParameter{"frequency_Hz", "Hz", 0.1, 2000.0, 100.0, {}, "teeth that pass in a second"},
     EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "at the start of the run"},
 };
 // clang-format on

@@ -1,10 +1,8 @@
 // Properties that every registered effect has, over random settings and motions.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <random>
 #include <set>
@@ -14,63 +12,18 @@
 #include "plant/effects/registry.h"
 #include "plant/feed_axis.h"
 #include "plant/parameter_table.h"
+#include "tests/support/any_effect.h"
 #include "tests/support/typical_effects.h"
-#include "tools/config/axis_file.h"
 
 namespace feedtwin::plant {
 namespace {
 
+using test::any_setting;
+using test::shown;
+
 std::set<std::string> words(std::string_view text) {
   std::istringstream in{std::string(text)};
   return {std::istream_iterator<std::string>(in), {}};
-}
-
-std::string shown(const EffectSetting& setting) {
-  std::ostringstream out;
-  out << setting.id;
-  for (const double value : setting.values) out << ' ' << value;
-  for (const auto& list : setting.lists) out << " [" << list.size() << ']';
-  return out.str();
-}
-
-/// Ends of the range, the preset, or anything between, small magnitudes as likely as large ones.
-double any_value(const EffectParameter& p, std::mt19937& random) {
-  const double u = std::uniform_real_distribution<double>(0.0, 1.0)(random);
-  switch (std::uniform_int_distribution<int>(0, 5)(random)) {
-    case 0:
-      return p.lowest;
-    case 1:
-      return p.highest;
-    case 2:
-      return p.preset.value_or(p.lowest);
-    case 3:
-      return p.lowest + u * (p.highest - p.lowest);
-    default: {
-      const double magnitude = std::pow(10.0, std::uniform_real_distribution<double>(-6.0, 3.0)(random));
-      return std::clamp(p.lowest < 0.0 && u < 0.5 ? -magnitude : magnitude, p.lowest, p.highest);
-    }
-  }
-}
-
-EffectSetting any_setting(const EffectEntry& entry, std::mt19937& random) {
-  EffectSetting setting{std::string(entry.id), {}, {}};
-  for (const auto& p : entry.parameters) {
-    if (!p.list) setting.values.push_back(any_value(p, random));
-  }
-  if (entry.id == "learned_residual") {
-    setting.lists.resize(5);
-    const auto over = std::uniform_int_distribution<std::size_t>(0, 2)(random);
-    const int points = std::uniform_int_distribution<int>(1, 20)(random);
-    std::uniform_real_distribution<double> step(1e-6, 0.02), force(-50.0, 50.0);
-    double at = over == 0 ? -0.08 : 0.0;
-    for (int i = 0; i < points; ++i) {
-      setting.lists[over].push_back(at += step(random));
-      setting.lists[3].push_back(force(random));
-      if (random() % 2 == 0 || !setting.lists[4].empty()) setting.lists[4].resize(setting.lists[3].size(), force(random));
-    }
-    if (!setting.lists[4].empty()) setting.lists[4].resize(setting.lists[3].size());
-  }
-  return setting;
 }
 
 /// A random command: noise, steps and dwells, up to the drive's limit; cutting now and then.
@@ -112,25 +65,33 @@ AxisParameters axis_with(std::vector<EffectSetting> effects) {
 }
 
 constexpr double tick_s = 1e-3;
-constexpr double open_at_typical = 2e-5;
-constexpr double open_at_extremes = 1e-3;
-constexpr double not_asked = 1e300;
+/// What may stay open of the energy balance.
+struct Open {
+  double share, absolute_J;
+};
+constexpr Open open_at_typical{2e-5, 1e-5};
+constexpr Open open_at_extremes{1e-3, 5e-3};
+constexpr Open not_asked{1e300, 1e300};
 
-/// Runs and checks what must hold for any effect; empty: it held. The energy balance is asked of speeds that an axis can
+/// Runs and checks what must hold for any effect; empty: it held. The energy balance is asked of motions that an axis can
 /// have: at the ends of the ranges a force of 100 kN throws it through its end stops. What stays open is left by the
 /// integrator's zero crossings (a velocity that is set to zero), more of them the stiffer the effect.
-std::string fault_of(const AxisParameters& parameters, unsigned seed, int ticks, double tick, double balance) {
+std::string fault_of(const AxisParameters& parameters, unsigned seed, int ticks, double tick, Open balance) {
   constexpr double sane_m_per_s = 2.0;
+  constexpr double sane_m_per_s2 = 100.0;
   FeedAxis axis(parameters);
   AnyCommand commands(seed);
   bool sane = true;
+  double last_v = 0.0;
   for (int i = 0; i < ticks; ++i) {
     const AxisCommand command = commands.next();
     axis.step(command, tick);
     if (!all_finite(axis, command)) return "not finite at tick " + std::to_string(i);
-    sane = sane && std::abs(axis.signals().velocity_m_per_s) < sane_m_per_s;
+    const double v = axis.signals().velocity_m_per_s;
+    sane = sane && std::abs(v) < sane_m_per_s && std::abs(v - last_v) < sane_m_per_s2 * tick;
+    last_v = v;
     const auto e = axis.energy();
-    if (sane && e.balance_error() * e.throughput_J > balance * e.throughput_J + 1e-7) {
+    if (sane && e.balance_error() * e.throughput_J > balance.share * e.throughput_J + balance.absolute_J) {
       std::ostringstream out;
       out << "energy balance open by " << e.balance_error() << " of " << e.throughput_J << " J at tick " << i;
       return out.str();
@@ -176,7 +137,8 @@ TEST(EveryEffect, IsGoneAtItsNeutralValue) {
       if (p.neutral) setting.values[place] = *p.neutral;
       ++place;
     }
-    const Resolution fine{6, 12, 3e-3};  // the same sub-steps with and without, whatever the effect asks for
+    const Resolution fine{
+        .sliding = 6, .settling = 6, .reversing = 12};  // the same sub-steps with and without, whatever the effect asks for
     FeedAxis with(axis_with({setting}), fine);
     FeedAxis without(source_axis(), fine);
     AnyCommand commands(7);
@@ -310,24 +272,6 @@ TEST(EveryEffect, OfTheContractIsRegistered) {
                          "hidden_friction_compensation"}) {
     EXPECT_NE(find_effect(id), nullptr) << id;
   }
-}
-
-TEST(EveryEffect, SurvivesTheAxisFile) {
-  const auto path = std::filesystem::temp_directory_path() / ("feedtwin_effects_" + std::to_string(::getpid()) + ".toml");
-  for (unsigned seed = 0; seed < 8; ++seed) {
-    std::mt19937 random(seed);
-    AxisParameters axis = source_axis();
-    for (const auto& entry : effect_registry()) {
-      const int copies = 1 + static_cast<int>(random() % 2);
-      for (int i = 0; i < copies; ++i) axis.effects.push_back(any_setting(entry, random));
-    }
-    tools::write_axis_file(path.string(), axis);
-    auto read = tools::read_axis_file(path.string()).effects;
-    std::ranges::stable_sort(axis.effects, {}, &EffectSetting::id);  // a file keeps no order between ids
-    std::ranges::stable_sort(read, {}, &EffectSetting::id);
-    EXPECT_EQ(read, axis.effects) << "seed " << seed;
-  }
-  std::filesystem::remove(path);
 }
 
 TEST(EveryEffect, IsRefusedWhenItsSettingDoesNotFit) {
