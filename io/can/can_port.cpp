@@ -35,7 +35,7 @@ std::unique_ptr<Device> make_device(Settings& settings, const PortContext::Axis&
   odrive.lead_m = axis.lead_m;
   odrive.heartbeat_ms = static_cast<int>(settings.integer("heartbeat_ms", 0, 10000, 100));
   odrive.encoder_ms = static_cast<int>(settings.integer("encoder_ms", 0, 10000, 1));
-  odrive.watchdog_ms = static_cast<int>(settings.integer("watchdog_ms", 0, 10000, 100));
+  odrive.watchdog_ms = static_cast<int>(settings.integer("watchdog_ms", 0, 10000, 250));
   return std::make_unique<OdriveNode>(odrive);
 }
 

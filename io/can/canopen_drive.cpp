@@ -8,6 +8,7 @@ namespace feedtwin::io::can {
 namespace {
 
 constexpr int cyclic_synchronous_torque = 10;
+constexpr std::int64_t guard_margin_ns = 50'000'000;
 /// 6007, abort connection option code.
 enum AbortConnection : int { no_action = 0, to_fault = 1, disable_voltage = 2, to_quick_stop = 3 };
 
@@ -88,11 +89,15 @@ bool CanopenNode::take_request(AxisRequest& newest) noexcept FEEDTWIN_REALTIME {
   changed_ = false;
   newest.torque_Nm = wanted_torque_Nm();
   newest.sequence = ++sequence_;
-  newest.arrival_ns = command_ns_;
+  newest.arrival_ns = fresh_command_ ? command_ns_ : now_ns_;
+  fresh_command_ = false;
   newest.enable = drive_state_.operating() || drive_state_.braking();
   newest.quick_stop = drive_state_.braking();
   newest.fault_reset = fault_reset_;
   fault_reset_ = false;
+  // the drive's own supervision is to act first, so that EMCY says what was missing
+  const std::int64_t timeout_ns = at(entry_.sync_timeout) * 1'000'000;
+  newest.watchdog_ns = timeout_ns > 0 ? timeout_ns + guard_margin_ns : 0;
   return true;
 }
 

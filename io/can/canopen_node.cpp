@@ -163,7 +163,7 @@ bool CanopenNode::use(Pdo& pdo, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   const bool command = pdo.mapping.carries(entry_.controlword) || pdo.mapping.carries(entry_.target_torque);
   if (command) {
     command_ns_ = pdo.time_ns;
-    changed_ = true;
+    changed_ = fresh_command_ = true;
   }
   unpack(pdo.mapping, pdo.frame, [&](int entry, std::int64_t value) FEEDTWIN_REALTIME { take(entry, value, out); });
   return command;
@@ -215,6 +215,7 @@ void CanopenNode::transmit(Pdo& pdo, std::int64_t now_ns, FrameQueue& out) noexc
 
 void CanopenNode::report(const AxisReport& axis, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   axis_ = axis;
+  now_ns_ = now_ns;
   const double counts_per_m = drive_.encoder_counts_per_rev / drive_.lead_m;
   const double velocity = std::clamp(axis.velocity_m_per_s * counts_per_m, -2147483648.0, 2147483647.0);
   const double wanted_per_mille = std::nearbyint(axis.torque_Nm / drive_.rated_torque_Nm * 1e3);

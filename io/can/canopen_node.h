@@ -125,6 +125,7 @@ class CanopenNode final : public Device, private SdoObjects {
   std::uint32_t sequence_ = 0;
   std::int64_t now_ns_ = 0;      ///< of the call under way
   std::int64_t command_ns_ = 0;  ///< arrival of the newest command
+  bool fresh_command_ = false;   ///< the next request is a command; otherwise it is the drive's own doing
   std::int64_t supervised_since_ns_ = 0;
   int syncs_without_command_ = 0;
   std::uint16_t last_statusword_ = 0;

@@ -37,7 +37,10 @@ Abort CanopenNode::sdo_write(std::uint16_t index, std::uint8_t sub,
   const auto value = ObjectValues::decode(object.type, bytes);
   if (const auto result = allow(entry, value); result != Abort::ok) return result;
   objects_.set(entry, value);
-  if (entry == entry_.controlword || entry == entry_.target_torque) command_ns_ = now_ns_;
+  if (entry == entry_.controlword || entry == entry_.target_torque) {
+    command_ns_ = now_ns_;
+    fresh_command_ = true;
+  }
   written(entry);
   return Abort::ok;
 }

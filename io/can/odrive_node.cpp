@@ -46,6 +46,7 @@ bool OdriveNode::steps_the_plant(const Frame& frame) const noexcept FEEDTWIN_REA
 }
 
 void OdriveNode::accept(const Frame& frame, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
+  now_ns_ = now_ns;
   if (frame.id >> 5 != settings_.node_id) return;
   const int code = frame.id & 0x1F;
   if (frame.remote) {
@@ -102,7 +103,7 @@ void OdriveNode::set_torque(const Frame& frame, std::int64_t now_ns) noexcept FE
   ++counters_.commands;
   torque_Nm_ = torque_Nm;
   command_ns_ = now_ns;
-  changed_ = true;
+  changed_ = fresh_command_ = true;
 }
 
 void OdriveNode::fail(std::uint32_t error) noexcept FEEDTWIN_REALTIME {
@@ -147,6 +148,7 @@ void OdriveNode::answer(int code, FrameQueue& out) const noexcept FEEDTWIN_REALT
 
 void OdriveNode::report(const AxisReport& axis, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   axis_ = axis;
+  now_ns_ = now_ns;
   const std::int64_t watchdog_ns = std::int64_t{settings_.watchdog_ms} * 1'000'000;
   if (closed_loop_ && watchdog_ns > 0 && now_ns - command_ns_ > watchdog_ns) {
     ++counters_.watchdog;
@@ -163,11 +165,14 @@ bool OdriveNode::take_request(AxisRequest& newest) noexcept FEEDTWIN_REALTIME {
   changed_ = false;
   newest.torque_Nm = closed_loop_ && torque_control_ ? static_cast<double>(torque_Nm_) : 0.0;
   newest.sequence = ++sequence_;
-  newest.arrival_ns = command_ns_;
+  newest.arrival_ns = fresh_command_ ? command_ns_ : now_ns_;
+  fresh_command_ = false;
   newest.enable = closed_loop_;
   newest.quick_stop = false;
   newest.fault_reset = clear_;
   clear_ = false;
+  // the drive's own watchdog is to act first, so that its error says so
+  newest.watchdog_ns = settings_.watchdog_ms > 0 ? (std::int64_t{settings_.watchdog_ms} + 50) * 1'000'000 : 0;
   return true;
 }
 

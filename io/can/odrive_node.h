@@ -55,8 +55,9 @@ class OdriveNode final : public Device {
   bool closed_loop_ = false, torque_control_ = true;
   float torque_Nm_ = 0.0F;
   bool changed_ = false, clear_ = false;
+  bool fresh_command_ = false;  ///< the next request is a torque command; otherwise it is the drive's own doing
   std::uint32_t sequence_ = 0;
-  std::int64_t command_ns_ = 0, next_heartbeat_ns_ = 0, next_encoder_ns_ = 0;
+  std::int64_t now_ns_ = 0, command_ns_ = 0, next_heartbeat_ns_ = 0, next_encoder_ns_ = 0;
   OdriveCounters counters_;
 };
 

@@ -32,7 +32,7 @@ class EdgeSchedule {
     target_ = target;
     const std::int64_t edges = left();
     const std::int64_t fitting = tick_ns_ / spacing_ns_;
-    if (edges > fitting) {
+    if (edges > fitting + 1) {  // one more is the rounding to whole counts at the stated rate
       ++overspeed_ticks_;
       most_behind_ = std::max(most_behind_, edges - fitting);
     }
