@@ -29,6 +29,7 @@ struct ContactsStep {
   Real screw_force_slope_Ns_per_m{}, guide_force_slope_Ns_per_m{};
   Real screw_bristle_m{}, guide_bristle_m{};
   Real screw_bristle_slope_s{}, guide_bristle_slope_s{};
+  Real screw_bristle_limit_m{}, guide_bristle_limit_m{};
   Real screw_viscous_Ns_per_m{}, guide_viscous_Ns_per_m{};  ///< unscaled, in the direction of motion
 };
 
@@ -75,6 +76,8 @@ struct Contacts {
             g.bristle_m,
             s.bristle_slope_s,
             g.bristle_slope_s,
+            s.bristle_limit_m,
+            g.bristle_limit_m,
             positive ? screw.pos.viscous_Ns_per_m : screw.neg.viscous_Ns_per_m,
             positive ? guide.pos.viscous_Ns_per_m : guide.neg.viscous_Ns_per_m};
   }
@@ -101,9 +104,18 @@ struct Contacts<double> {
     side.viscous_Ns_per_m *= Pair{scale.screw_viscous, scale.guide_viscous};
     const auto p = lugre_step<Pair>(both.bristle, side, Pair{} + m.sign, Pair{} + m.speed_m_per_s,
                                     Pair{screw_bristle_m, guide_bristle_m}, Pair{} + m.h_s, Pair{} + m.per_h_Hz);
-    return {p.force_N[0],   p.force_N[1],   p.force_slope_Ns_per_m[0], p.force_slope_Ns_per_m[1],
-            p.bristle_m[0], p.bristle_m[1], p.bristle_slope_s[0],      p.bristle_slope_s[1],
-            viscous[0],     viscous[1]};
+    return {p.force_N[0],
+            p.force_N[1],
+            p.force_slope_Ns_per_m[0],
+            p.force_slope_Ns_per_m[1],
+            p.bristle_m[0],
+            p.bristle_m[1],
+            p.bristle_slope_s[0],
+            p.bristle_slope_s[1],
+            p.bristle_limit_m[0],
+            p.bristle_limit_m[1],
+            viscous[0],
+            viscous[1]};
   }
 };
 

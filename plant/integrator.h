@@ -55,15 +55,15 @@ template <class Real>
 [[nodiscard]] inline ExtraLoad<Real> end_stop_load(const AxisModel<Real>& model, Real position_m, Real mean_velocity_m_per_s,
                                                    Real h_s) noexcept {
   const Real zero{};
-  const Real above = larger<Real>(position_m - model.stop_high_m, zero);
-  const Real below = smaller<Real>(position_m - model.stop_low_m, zero);
-  const Real depth = above + below;
-  const auto touching = depth != 0.0;
+  const auto at_high = position_m >= model.stop_high_m;
+  const auto at_low = position_m <= model.stop_low_m;
+  const auto touching = at_high | at_low;
+  const Real depth = at_high ? position_m - model.stop_high_m : (at_low ? position_m - model.stop_low_m : zero);
   const Real stiffness = touching ? model.stop_stiffness_N_per_m : zero;
   const Real damping = touching ? model.stop_damping_Ns_per_m : zero;
   const Real slope = damping + 0.5 * h_s * stiffness;
   const Real force = stiffness * depth + slope * mean_velocity_m_per_s;
-  const auto pulls = force * depth < 0.0;
+  const auto pulls = (at_high & (force < 0.0)) | (at_low & (force > 0.0));
   return {pulls ? zero : force, pulls ? zero : slope, {}};
 }
 
@@ -76,6 +76,7 @@ struct Trial {
   Real stop_force_N;
   Real h_s, per_h_Hz;
   Real per_theta;  ///< 1 / theta
+  Real arrest_J;   ///< kinetic energy left where a step to a reversal ends: the motor's Coulomb friction takes it up
 };
 
 /// Net force at rest without the motor's Coulomb friction: what that friction would have to hold.
@@ -115,26 +116,53 @@ template <class Real, class Effects>
 
   contacts.screw_force_N += contacts.screw_force_slope_Ns_per_m * correction;
   contacts.guide_force_N += contacts.guide_force_slope_Ns_per_m * correction;
-  contacts.screw_bristle_m += contacts.screw_bristle_slope_s * correction;
-  contacts.guide_bristle_m += contacts.guide_bristle_slope_s * correction;
+  contacts.screw_bristle_m =
+      within<Real>(contacts.screw_bristle_m + contacts.screw_bristle_slope_s * correction, contacts.screw_bristle_limit_m);
+  contacts.guide_bristle_m =
+      within<Real>(contacts.guide_bristle_m + contacts.guide_bristle_slope_s * correction, contacts.guide_bristle_limit_m);
   const Real mean = w + correction;
-  return {
-      mean,     v + per_theta * (mean - v), contacts, stop.force_N + stop.force_slope_Ns_per_m * correction, h_s, per_h_Hz,
-      per_theta};
+  return {mean,      v + per_theta * (mean - v),
+          contacts,  stop.force_N + stop.force_slope_Ns_per_m * correction,
+          h_s,       per_h_Hz,
+          per_theta, Real{}};
 }
 
-/// The sub-step again, only as far as the zero crossing. Rare, so out of line: the common path stays in registers.
+/// The sub-step again, only the given fraction of it. Rare, so out of line: the common path stays in registers.
 template <class Real, class Effects>
-[[nodiscard, gnu::noinline]] Trial<Real> solve_to_reversal(const AxisModel<Real>& model, AxisState<Real> state,
-                                                           Effects& effects, Real sign, Trial<Real> full,
-                                                           MaskOf<Real> shortened) noexcept {
-  const Real v = state.velocity_m_per_s;
-  const Real slope = (full.velocity_m_per_s - v) * full.per_h_Hz;
-  const Real fraction = larger<Real>(v / (v - full.velocity_m_per_s), Real{} + 1e-9);
+[[nodiscard, gnu::noinline]] Trial<Real> solve_part(const AxisModel<Real>& model, AxisState<Real> state, Effects& effects,
+                                                    Real sign, const Trial<Real>& full, Real fraction,
+                                                    MaskOf<Real> shortened) noexcept {
+  const Real slope = (full.velocity_m_per_s - state.velocity_m_per_s) * full.per_h_Hz;
   state.acceleration_m_per_s2 = shortened ? slope : state.acceleration_m_per_s2;
-  Trial<Real> trial = solve<Real>(model, state, effects, sign, shortened ? full.h_s * fraction : full.h_s);
+  return solve<Real>(model, state, effects, sign, shortened ? full.h_s * fraction : full.h_s);
+}
+
+/// As far as the velocity's zero crossing.
+template <class Real, class Effects>
+[[nodiscard]] Trial<Real> solve_to_reversal(const AxisModel<Real>& model, const AxisState<Real>& state, Effects& effects,
+                                            Real sign, const Trial<Real>& full, MaskOf<Real> shortened) noexcept {
+  const Real v = state.velocity_m_per_s;
+  const Real fraction = larger<Real>(v / (v - full.velocity_m_per_s), Real{} + 1e-9);
+  Trial<Real> trial = solve_part<Real>(model, state, effects, sign, full, fraction, shortened);
+  const Real left_J = 0.5 * model.mass_kg * trial.velocity_m_per_s * trial.velocity_m_per_s;
+  trial.arrest_J = shortened ? left_J : Real{};
   trial.velocity_m_per_s = shortened ? Real{} : trial.velocity_m_per_s;
   return trial;
+}
+
+/// How far into the trial an end stop begins; 1 where none does. A sub-step that ran into a stop unhindered would make the
+/// energy that the spring then gives back.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline Real fraction_to_stop(const AxisModel<Real>& model, Real position_m,
+                                                               const Trial<Real>& trial) noexcept {
+  const Real path_m = trial.mean_velocity_m_per_s * trial.h_s;
+  const Real end_m = position_m + path_m;
+  const auto above = (position_m < model.stop_high_m) & (end_m > model.stop_high_m);
+  const auto below = (position_m > model.stop_low_m) & (end_m < model.stop_low_m);
+  const Real one = Real{} + 1.0;
+  if (!any(MaskOf<Real>(above | below))) return one;
+  const Real edge_m = above ? model.stop_high_m : model.stop_low_m;
+  return (above | below) ? larger<Real>((edge_m - position_m) / path_m, Real{} + 1e-6) : one;
 }
 
 /// @param w mean velocity, 0 in lanes that stand; @param ahead w less the velocity at the start, likewise
@@ -149,7 +177,7 @@ template <class Real>
   const Real speed_forth = positive ? speed_travel : Real{};
   const Real speed_back = speed_travel - speed_forth;
   losses.motor_J += model.coulomb_pos_N * forth_m - model.coulomb_neg_N * back_m +
-                    (model.damping_pos_Ns_per_m * speed_forth + model.damping_neg_Ns_per_m * speed_back);
+                    (model.damping_pos_Ns_per_m * speed_forth + model.damping_neg_Ns_per_m * speed_back) + trial.arrest_J;
   losses.screw_J += trial.contacts.screw_force_N * path_m + trial.contacts.screw_viscous_Ns_per_m * spread;
   losses.guide_J += trial.contacts.guide_force_N * path_m + trial.contacts.guide_viscous_Ns_per_m * spread;
   losses.stop_J += trial.stop_force_N * path_m;
@@ -192,6 +220,9 @@ template <class Real, class Effects>
     state.acceleration_m_per_s2 = rebound ? Real{} : state.acceleration_m_per_s2;
     trial = solve_to_reversal<Real>(model, state, effects, sign, trial, crossing & !rebound);
   }
+  const Real to_stop = fraction_to_stop<Real>(model, state.position_m, trial);
+  const Mask entering = (to_stop < 1.0) & !idle;
+  if (any(entering)) trial = solve_part<Real>(model, state, effects, sign, trial, to_stop, entering);
   const Real w = idle ? Real{} : trial.mean_velocity_m_per_s;
   const Real ahead = idle ? Real{} : w - state.velocity_m_per_s;
   account<Real>(model, trial, sign > 0.0, w, ahead, losses);

@@ -41,6 +41,7 @@ struct LugreStep {
   Real force_slope_Ns_per_m{};
   Real bristle_m{};  ///< z at the end
   Real bristle_slope_s{};
+  Real bristle_limit_m{};  ///< |z| never leaves it: F_S / sigma0, or where it started
 };
 
 /// Steady friction g(v) of Eq. 3 at the speed |v|.
@@ -91,7 +92,8 @@ template <class Real>
   const Real damping_per_h = bristle.damping_Ns_per_m * per_h_Hz;
   return {bristle.stiffness_N_per_m * z_mean + damping_per_h * (z_end - z_m) + sign * side.viscous_Ns_per_m * speed_m_per_s,
           sign * (bristle.stiffness_N_per_m * dz_mean + damping_per_h * dz_end) + side.viscous_Ns_per_m, z_end,
-          sign * dz_end};
+          sign * dz_end,
+          larger<Real>(absolute<Real>(z_m), bristle.compliance_m_per_N * (side.coulomb_N + side.stribeck_rise_N))};
 }
 
 }  // namespace feedtwin::plant

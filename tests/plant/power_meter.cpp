@@ -1,0 +1,47 @@
+#include "plant/power_meter.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace feedtwin::plant {
+namespace {
+
+TEST(PowerMeter, ShowsTheMeanOfEachWindowFromItsEndOn) {
+  PowerMeter meter;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> power(-100.0, 500.0);
+  double sum = 0.0, shown = 0.0, energy_J = 0.0, shown_J = 0.0;
+  for (int i = 0; i < 100000; ++i) {
+    const double now = power(random);
+    sum += now;
+    energy_J += now * 1e-3;
+    const double reading = meter.update(now, 1e-3);
+    if ((i + 1) % 100 == 0) {
+      shown = sum / 100.0;
+      sum = 0.0;
+      shown_J += shown * 0.1;
+    }
+    ASSERT_NEAR(reading, shown, 1e-9) << "tick " << i;
+    if (i < 99) {
+      ASSERT_EQ(reading, 0.0);
+    }
+  }
+  EXPECT_NEAR(shown_J, energy_J, 1e-6) << "windows lose no energy";
+}
+
+TEST(PowerMeter, WindowsDoNotDriftWithTicksThatDoNotDivideThem) {
+  PowerMeter meter(0.1);
+  double last = 0.0;
+  int changes = 0;
+  for (int i = 0; i < 30000; ++i) {
+    const double reading = meter.update(static_cast<double>(i), 0.4e-3);  // 12 s
+    changes += reading != last;
+    last = reading;
+  }
+  EXPECT_EQ(changes, 120);
+}
+
+}  // namespace
+}  // namespace feedtwin::plant
