@@ -15,7 +15,7 @@ struct SpindleParameters {
   double viscous_Nms = 0.0;                ///< mu_v
   double torque_limit_Nm = 0.3;            ///< the drive's
   double acceleration_rad_per_s2 = 600.0;  ///< ramp of the commanded speed
-  double bandwidth_rad_per_s = 60.0;       ///< of the drive's speed loop
+  double bandwidth_rad_per_s = 120.0;      ///< of the drive's speed loop
 };
 
 struct SpindleEnergy {
