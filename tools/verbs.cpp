@@ -2,6 +2,7 @@
 
 #include "tools/diagnose.h"
 #include "tools/latency/latency.h"
+#include "tools/machine/machine.h"
 #include "tools/serve.h"
 #include "tools/simulate.h"
 #include "tools/verb.h"
@@ -16,6 +17,8 @@ std::span<const Verb> verbs() noexcept {
       Verb{"latency", "wake-up, tick and input-to-output latency of this host, beside cyclictest", prepare_latency},
       Verb{"diagnose", "locates the mismatch, names the missing physics, models it, shows the fit before and after",
            prepare_diagnose},
+      Verb{"machine", "the whole virtual machine tool: G-code in, energy by component out; what-if, comparison, sweep",
+           prepare_machine},
   };
   return all;
 }

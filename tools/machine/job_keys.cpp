@@ -141,7 +141,7 @@ void apply_setting(MachineJob& job, const std::string& setting) {
   const std::string key = setting.substr(0, equals), value = setting.substr(equals + 1);
   const bool word = !value.empty() && value != "true" && value != "false" &&
                     value.find_first_not_of("0123456789+-.eE_[], ") != std::string::npos && value.front() != '"';
-  TomlFile file = TomlFile::parse(key + " = " + (word ? "\"" + value + "\"" : value) + "\n", "--set " + setting);
+  TomlFile file = TomlFile::parse(key + " = " + (word ? "\"" + value + "\"" : value) + "\n", "--set " + key);
   apply(job, file);
 }
 
