@@ -74,20 +74,20 @@ double Coupling::settle(double screw_w, double table_w) noexcept {
     const ContactForce spring = contact(d_m, screw_w - table_w, trial_.h_s);
     const double step = (spring.force_N - table_side_N(table_w)) / (trial_.others_slope + spring.slope_Ns_per_m);
     table_w += step;
-    if (std::abs(step) < 1e-12) break;
+    if (std::abs(step) < 1e-9 * std::abs(table_w) + 1e-12) break;
   }
   return table_w;
 }
 
 EffectLoad Coupling::respond(const EffectMotion& screw, const EffectLoad& load,
                              const FrictionScale<double>& scale) noexcept FEEDTWIN_REALTIME {
-  constexpr int friction_passes = 2;  // the second at the velocity that the first found
   trial_.screw_x = screw.position_m;
   trial_.screw_w = screw.velocity_m_per_s;
   trial_.h_s = screw.h_s;
   const double predicted = predicted_velocity_m_per_s(screw.h_s);
-  double table_w = predicted;
-  for (int pass = 0; pass < friction_passes; ++pass) {
+  balance(predicted, load, predicted, scale);
+  double table_w = settle(screw.velocity_m_per_s, predicted);
+  if (std::abs(table_w - predicted) > 0.05 * std::abs(predicted)) {  // friction again, at the velocity that was found
     balance(table_w, load, predicted, scale);
     table_w = settle(screw.velocity_m_per_s, table_w);
   }

@@ -18,21 +18,25 @@ class DwellBreakaway final : public Effect {
   DwellBreakaway(const EffectContext& /*context*/, const EffectSetting& setting)
       : rise_(setting.values[0]), time_constant_s_(setting.values[1]), distance_m_(setting.values[2]) {}
 
-  void reset(double /*position_m*/) noexcept override { age_s_ = 0.0; }
+  void reset(double /*position_m*/) noexcept override {
+    age_s_ = 0.0;
+    factor_ = 1.0;
+  }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
-    scale.screw_sliding *= 1.0 + rise_ * (1.0 - std::exp(-age_s_ / time_constant_s_));
+    scale.screw_sliding *= factor_;
   }
 
   void advance(const EffectMotion& m) noexcept override {
     const double y = std::abs(m.velocity_m_per_s) * m.h_s / distance_m_;
     const double left = std::exp(-y);
     age_s_ = age_s_ * left + m.h_s * (y > 1e-6 ? (1.0 - left) / y : 1.0 - 0.5 * y);
+    factor_ = 1.0 + rise_ * (1.0 - std::exp(-age_s_ / time_constant_s_));
   }
 
  private:
   double rise_, time_constant_s_, distance_m_;
-  double age_s_ = 0.0;
+  double age_s_ = 0.0, factor_ = 1.0;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

@@ -8,18 +8,18 @@
 
 namespace feedtwin::plant {
 
-/// mean of sin over [a - d, a + d] = sin(a) sin(d) / d; both are wait-free.
-struct SineMean {
-  double value, slope_by_half_width;
+/// sin(d) / d and its slope, d the half width of an interval: mean of sin over [a - d, a + d] = sin(a) sinc(d). Wait-free.
+struct Sinc {
+  double value, slope;
 };
-[[nodiscard]] inline SineMean sine_mean(double middle, double half_width) noexcept {
-  const double s = std::sin(middle);
-  if (std::abs(half_width) < 0.05) {  // to the fourth power: 1e-9
-    const double d2 = half_width * half_width;
-    return {s * (1.0 - d2 * (1.0 / 6.0 - d2 * (1.0 / 120.0))), s * half_width * (-1.0 / 3.0 + d2 * (1.0 / 30.0))};
+[[nodiscard]] inline Sinc sinc(double d) noexcept {
+  if (std::abs(d) < 0.5) {  // the usual case; to 3e-11
+    const double d2 = d * d;
+    return {1.0 - d2 / 6.0 * (1.0 - d2 / 20.0 * (1.0 - d2 / 42.0 * (1.0 - d2 / 72.0))),
+            -d / 3.0 * (1.0 - d2 / 10.0 * (1.0 - d2 / 28.0 * (1.0 - d2 / 54.0)))};
   }
-  const double sinc = std::sin(half_width) / half_width;
-  return {s * sinc, s * (std::cos(half_width) - sinc) / half_width};
+  const double value = std::sin(d) / d;
+  return {value, (std::cos(d) - value) / d};
 }
 
 /// sin(n theta + phase), theta = 2 pi x / p_b the shaft's angle: n periods a revolution.
@@ -36,9 +36,10 @@ class RevolutionWave {
     const double half_per_speed = 0.5 * wave_rad_per_m_ * m.h_s;
     const double half = half_per_speed * m.velocity_m_per_s;
     const double middle = wave_rad_per_m_ * m.position_m + phase_rad_ + half;
-    const SineMean mean = sine_mean(middle, half);
-    const double cosine_mean = std::cos(middle) * (half == 0.0 ? 1.0 : std::sin(half) / half);
-    return {scale_N * mean.value, scale_N * half_per_speed * (cosine_mean + mean.slope_by_half_width)};
+    const Sinc narrowed = sinc(half);
+    const double sine = std::sin(middle);
+    const double cosine = std::cos(middle);
+    return {scale_N * sine * narrowed.value, scale_N * half_per_speed * (cosine * narrowed.value + sine * narrowed.slope)};
   }
 
  private:
@@ -48,7 +49,7 @@ class RevolutionWave {
 /// Mean of sin(2 pi f t + phase) from t to t + h.
 [[nodiscard]] inline double time_sine_mean(double frequency_Hz, double phase_rad, double time_s, double h_s) noexcept {
   const double half = std::numbers::pi * frequency_Hz * h_s;
-  return sine_mean(2.0 * std::numbers::pi * frequency_Hz * time_s + phase_rad + half, half).value;
+  return std::sin(2.0 * std::numbers::pi * frequency_Hz * time_s + phase_rad + half) * sinc(half).value;
 }
 
 inline constexpr double whole_turn_rad = 6.2831853071795864;
