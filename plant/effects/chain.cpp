@@ -41,13 +41,14 @@ AxisParameters adapted(const AxisParameters& parameters) {
 }
 
 EffectChain::EffectChain(const AxisParameters& axis, const AxisModel<double>& model) {
-  for (const auto& setting : axis.effects) {
-    const auto& entry = entry_of(setting);
-    if (entry.make == nullptr) continue;
+  for (const auto& setting : axis.effects) (void)entry_of(setting);
+  for (const auto& entry : effect_registry()) {  // in its order, which is the signal's
     const bool at_table = entry.component == EffectComponent::guide || entry.component == EffectComponent::load;
-    links_.push_back({&entry, entry.make({axis, model}, setting), at_table, {}});
+    for (const auto& setting : axis.effects) {
+      if (setting.id != entry.id || entry.make == nullptr) continue;
+      links_.push_back({&entry, entry.make({axis, model}, setting), at_table, {}});
+    }
   }
-  std::ranges::stable_sort(links_, {}, [](const Link& link) { return link.entry - effect_registry().data(); });
 
   CouplingParameters coupling;
   for (std::size_t i = 0; i < links_.size(); ++i) {
