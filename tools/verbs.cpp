@@ -1,6 +1,8 @@
 #include <array>
 
+#include "tools/compare.h"
 #include "tools/diagnose.h"
+#include "tools/identify.h"
 #include "tools/latency/latency.h"
 #include "tools/machine/machine.h"
 #include "tools/serve.h"
@@ -19,6 +21,8 @@ std::span<const Verb> verbs() noexcept {
            prepare_diagnose},
       Verb{"machine", "the whole virtual machine tool: G-code in, energy by component out; what-if, comparison, sweep",
            prepare_machine},
+      Verb{"identify", "parameters of an axis from recordings", prepare_identify},
+      Verb{"compare", "simulation against recording, per channel, with metrics and pictures", prepare_compare},
   };
   return all;
 }

@@ -9,6 +9,8 @@
 namespace feedtwin::tools {
 namespace {
 
+constexpr double undivided_prior = 0.1;
+
 bool electrical(std::string_view key) {
   return key.starts_with("motor.ke");
 }
@@ -41,16 +43,22 @@ void keep_breakaway(plant::LugreParameters& friction) {
 std::vector<FitParameter> axis_unknowns(const plant::AxisParameters& nominal, const std::vector<Recording>& recordings,
                                         bool with_force_offset) {
   plant::AxisParameters axis = nominal;
-  const bool power = std::ranges::any_of(recordings, [](const Recording& r) { return r.has(channel::power_W); });
+  const auto recorded = [&recordings](std::string_view name) {
+    return std::ranges::any_of(recordings, [name](const Recording& r) { return r.has(name); });
+  };
+  const bool power = recorded(channel::power_W), torque_sensor = recorded(channel::torque_sensor_Nm);
+  const bool force_sensor = recorded(channel::force_sensor_N);
   std::vector<FitParameter> unknowns;
   for (const auto& entry : plant::parameter_table()) {
-    if (entry.key.starts_with("axis.") || entry.key == "motor.rated_torque_Nm" || (electrical(entry.key) && !power))
-      continue;
-    const double value = entry.in(axis), scale = scale_of(entry, nominal);
-    const double reach = 20.0 * scale;
-    unknowns.push_back({std::string(entry.key), value, std::max(entry.lowest, entry.lowest < 0.0 ? -reach : 1e-3 * scale),
-                        std::min(entry.highest, reach), scale});
-    if (entry.lowest == 0.0) unknowns.back().lowest = 0.0;
+    const bool motor = entry.key.starts_with("motor."), guide = entry.key.starts_with("guide.");
+    if (!motor && !guide && !entry.key.starts_with("ball_screw.")) continue;
+    if (entry.key == "motor.rated_torque_Nm" || (electrical(entry.key) && !power)) continue;
+    const double value = entry.in(axis), scale = scale_of(entry, nominal), reach = 20.0 * scale;
+    const double low = entry.lowest < 0.0 ? -reach : entry.lowest > 0.0 ? 1e-3 * scale : 0.0;
+    FitParameter unknown{std::string(entry.key), value, std::max(entry.lowest, low), std::min(entry.highest, reach), scale};
+    // no sensor divides these from the ball screw: they stay by the axis file unless the motion says much
+    if ((guide && !force_sensor) || (motor && !torque_sensor && !electrical(entry.key))) unknown.prior = undivided_prior;
+    unknowns.push_back(std::move(unknown));
   }
   const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
   unknowns.push_back({position_offset_key, 0.0, -5.0 * count_m, 5.0 * count_m, count_m});

@@ -27,14 +27,14 @@ double start_velocity(std::span<const double> position_m, const plant::AxisParam
   return std::abs(position_m[1] - position_m[0]) > 1.5 * count_m ? (position_m[2] - position_m[0]) / (2.0 * tick_s) : 0.0;
 }
 
-plant::AxisParameters without_stops(plant::AxisParameters parameters, std::span<const double> position_m) {
-  const auto [low, high] = std::ranges::minmax(position_m);
+}  // namespace
+
+plant::AxisParameters without_stops(plant::AxisParameters parameters, const Recording& recording) {
+  const auto [low, high] = std::ranges::minmax(recording.at(channel::position_m));
   parameters.axis.stroke_centre_m = 0.5 * (low + high);
   parameters.axis.stroke_m = std::max(parameters.axis.stroke_m, 2.0 * (high - low));
   return parameters;
 }
-
-}  // namespace
 
 ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParameters& nominal,
                              const std::optional<controllers::CascadeGains>& controller, const StandInSettings& stand_in)
@@ -89,10 +89,9 @@ std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run, std::span<
                                             const lanes::Wanted& wanted, unsigned threads) {
   std::vector<lanes::Candidate> models;
   models.reserve(candidates.size());
-  const auto position_m = run.recording().at(channel::position_m);
   for (const auto& [parameters, position_offset_m, force_offset_N] : candidates) {
     const auto& motor = parameters.motor;
-    models.push_back({plant::make_axis_model(without_stops(parameters, position_m)), motor.electrical_idle_W,
+    models.push_back({plant::make_axis_model(without_stops(parameters, run.recording())), motor.electrical_idle_W,
                       motor.electrical_linear_Ws_per_m.pos, motor.electrical_linear_Ws_per_m.neg,
                       motor.electrical_quadratic_Ws2_per_m2.pos, motor.electrical_quadratic_Ws2_per_m2.neg,
                       position_offset_m, force_offset_N});

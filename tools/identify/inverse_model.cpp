@@ -24,6 +24,10 @@ RecordedMotion recorded_motion(const Recording& recording, double lead_m, const 
   const auto velocity = central_difference(position, sample_s);
   const auto acceleration = central_difference(velocity, sample_s);
   const std::size_t skip = std::min(settings.lead_in_samples, recording.size() / 10);
+  const auto command = recording.at(channel::torque_cmd_Nm);
+  std::vector<double> torque_Nm(command.begin(), command.end());
+  for (std::size_t i = torque_Nm.size(); settings.held_command && i-- > 1;)
+    torque_Nm[i] = 0.5 * (command[i] + command[i - 1]);
   const auto after = [skip](std::span<const double> values) {
     return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(skip), values.end());
   };

@@ -13,8 +13,10 @@
 namespace feedtwin::tools {
 
 struct InverseModelSettings {
-  double cutoff_Hz = 100.0;          ///< of the order-4 Butterworth that the position goes through
-  double band_Hz = 40.0;             ///< that is kept by the decimation
+  double cutoff_Hz = 100.0;  ///< of the order-4 Butterworth that the position goes through
+  double band_Hz = 40.0;     ///< that is kept by the decimation
+  bool held_command =
+      true;  ///< the force at an instant is the mean of the commands before and after it; false: the later one
   std::size_t lead_in_samples = 49;  ///< left out at the start of the record
 };
 

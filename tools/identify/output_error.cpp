@@ -1,6 +1,8 @@
 #include "tools/identify/output_error.h"
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
@@ -102,7 +104,7 @@ class ResidualStack {
     VectorXd off(prior_rows());
     for (Index i = 0; i < off.size(); ++i) {
       const auto& parameter = parameters_[static_cast<std::size_t>(i)];
-      off[i] = (point[i] - parameter.nominal) / (settings_.prior * parameter.scale);
+      off[i] = (point[i] - parameter.nominal) / (settings_.prior * parameter.prior * parameter.scale);
     }
     return off;
   }
@@ -217,6 +219,10 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
   for (int round = 0; round < settings.rounds; ++round) {
     stack.weigh(problem.start, round > 0);
     at = solve_least_squares(problem);
+    if (settings.progress) {
+      settings.progress(fmt::format("round {} of {}: {} iterations, weighted rms {:.4f}", round + 1, settings.rounds,
+                                    at.iterations, std::sqrt(2.0 * at.cost / static_cast<double>(at.residuals.size()))));
+    }
     problem.start = at.point;
     adapt_steps(covariance_of(at, stack), parameters, problem.step);
   }
@@ -232,11 +238,9 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
     const auto index = static_cast<Index>(i);
     const double deviation = std::sqrt(fit.covariance(index, index));
     const double half = normal_90 * deviation, value = at.point[index];
-    fit.parameters.push_back({parameters[i],
-                              value,
-                              deviation,
-                              {value - half, value + half},
-                              deviation < settings.told_below * parameters[i].scale});
+    const double known = settings.prior > 0.0 ? 0.5 * settings.prior * parameters[i].prior : settings.told_below;
+    const bool told = deviation < std::min(settings.told_below, known) * parameters[i].scale;
+    fit.parameters.push_back({parameters[i], value, deviation, {value - half, value + half}, told});
   }
   return fit;
 }

@@ -17,6 +17,7 @@ struct FitParameter {
   double nominal = 0.0;  ///< start, and the middle of the prior
   double lowest = 0.0, highest = 0.0;
   double scale = 1.0;  ///< > 0: differences are taken in 1e-4 of it, and the prior's deviation is `prior` of it
+  double prior = 1.0;  ///< times the settings' prior
 };
 
 /// Simulates one run for several sets of unknowns (a column each). Every channel that the recording has, but the scale.
@@ -25,11 +26,12 @@ using BatchSimulator = std::function<std::vector<Simulated>(const ClosedLoopRun&
 struct OutputErrorSettings {
   /// Deviation of a wide prior around the nominal values, in units of `scale`: holds what the data cannot tell. 0: none.
   double prior = 0.5;
-  /// An unknown is told by the data when its deviation is below this share of its scale.
+  /// An unknown is told by the data when its deviation is below this share of its scale and below half of the prior's.
   double told_below = 0.15;
   std::size_t whitening_order = 24;
   int rounds = 3;  ///< of fitting and weighing anew
-  int most_iterations = 15;
+  int most_iterations = 25;
+  std::function<void(const std::string& line)> progress;  ///< told of every round; may be empty
 };
 
 struct FittedParameter {

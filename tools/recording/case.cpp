@@ -45,6 +45,7 @@ std::optional<controllers::CascadeGains> controller(TomlFile& file, const plant:
   gains.velocity_feedforward = file.number("controller.velocity_feedforward", -10.0, 10.0, 0.0);
   gains.acceleration_feedforward_kg = file.number("controller.acceleration_feedforward_kg", 0.0, 1e6, 0.0);
   gains.current_loop_time_constant_s = file.number("controller.current_loop_time_constant_s", 0.0, 1.0, 0.0);
+  gains.velocity_window_samples = static_cast<int>(file.integer("controller.velocity_window_samples", 1, 4, 1));
   gains.torque_limit_Nm = file.number("controller.torque_limit_Nm", 1e-6, 1e6, axis.axis.torque_limit_Nm);
   gains.lead_m = axis.axis.lead_m;
   return gains;

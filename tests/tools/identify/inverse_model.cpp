@@ -42,7 +42,7 @@ TEST(ZeroPhaseFilter, LeavesStraightLinesAndTheirPhaseAlone) {
   std::vector<double> line;
   for (int i = 0; i < 500; ++i) line.push_back(3.0 - 0.02 * i);
   const auto smooth = filter_both_ways(butterworth(4, 0.2), line);
-  for (std::size_t i = 0; i < line.size(); ++i) ASSERT_NEAR(smooth[i], line[i], i < 60 || i > 440 ? 1e-3 : 1e-9) << i;
+  for (std::size_t i = 0; i < line.size(); ++i) ASSERT_NEAR(smooth[i], line[i], i < 100 || i > 400 ? 2e-3 : 1e-9) << i;
   std::vector<double> wave;
   for (int i = 0; i < 2000; ++i) wave.push_back(std::sin(0.02 * i));
   const auto same = filter_both_ways(butterworth(4, 0.2), wave);
@@ -59,7 +59,7 @@ TEST(InverseModel, AsksForTheForceThatMadeTheMotion) {
   const auto given = decimated(motion.force_N, motion.decimation);
   double off = 0.0, all = 0.0;
   for (std::size_t i = 0; i < given.size(); ++i) off += std::pow(asked[i] - given[i], 2), all += given[i] * given[i];
-  EXPECT_LT(std::sqrt(off / all), 0.03);
+  EXPECT_LT(std::sqrt(off / all), 0.015);
   const auto rigid = fit_rigid_model(motion, true);
   EXPECT_NEAR(rigid.mass_kg, 90.86, 2.0);
 }
@@ -72,7 +72,7 @@ TEST(InverseModel, ReproducesTheReferenceFitsOfEmps) {
   auto recording = recording_from(read_mat(tests::shared_path("data/DATA_EMPS.mat")),
                                   {{"time_s", {"t"}}, {"torque_cmd_Nm", {"vir", gtau * to_torque}}, {"position_m", {"qm"}}});
   recording.sample_s = 1e-3;
-  const auto motion = recorded_motion(recording, lead_m);
+  const auto motion = recorded_motion(recording, lead_m, {.held_command = false});
   EXPECT_EQ(motion.decimation, 10);
   const auto symmetric = fit_rigid_model(motion, false);
   EXPECT_NEAR(symmetric.mass_kg, 95.109, 0.001);
