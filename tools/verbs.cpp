@@ -5,6 +5,7 @@
 #include "tools/identify.h"
 #include "tools/latency/latency.h"
 #include "tools/machine/machine.h"
+#include "tools/report.h"
 #include "tools/serve.h"
 #include "tools/simulate.h"
 #include "tools/verb.h"
@@ -23,6 +24,7 @@ std::span<const Verb> verbs() noexcept {
            prepare_machine},
       Verb{"identify", "parameters of an axis from recordings", prepare_identify},
       Verb{"compare", "simulation against recording, per channel, with metrics and pictures", prepare_compare},
+      Verb{"report", "a self-contained HTML page of any run, comparison or diagnosis", prepare_report},
   };
   return all;
 }
