@@ -69,10 +69,43 @@ TEST(PlantLoop, TheTickDoesNotAllocate) {
   EXPECT_EQ(allocations, 0U);
   EXPECT_GT(bench.loop->stats().dropped_records, 0U);
   const test::AllocationGuard guard;
-  auto* const memory = new int(1);
+  void* const memory = ::operator new(16);
   EXPECT_EQ(guard.allocations(), 1U) << "the guard itself sees an allocation";
-  delete memory;
+  ::operator delete(memory);
 }
+
+#if defined(__has_feature)
+#if __has_feature(realtime_sanitizer)
+/// A port that does what no port may do in a tick.
+class BlockingPort final : public io::Port {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "blocking"; }
+  void open() override {}
+  void close() noexcept override {}
+  std::uint64_t receive(std::span<io::AxisRequest>) noexcept FEEDTWIN_REALTIME override { return 0; }
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wfunction-effects"
+  void send(const io::TickReport&, std::span<const io::AxisReport>) noexcept FEEDTWIN_REALTIME override {
+    ::operator delete(::operator new(16));
+  }
+#pragma clang diagnostic pop
+};
+
+TEST(PlantLoopDeathTest, RealtimeSanitizerSeesAPortThatAllocatesInTheTick) {
+  std::vector<plant::FeedAxis> axes;
+  axes.emplace_back(plant::source_axis());
+  BlockingPort port;
+  OfflineClock clock(1'000'000);
+  const std::atomic<bool> stop{false};
+  EXPECT_DEATH(
+      {
+        PlantLoop loop(axes, port, {}, clock, {});
+        loop.run_to(2, stop);
+      },
+      "unsafe-library-call|RealtimeSanitizer");
+}
+#endif
+#endif
 
 TEST(PlantLoop, EveryTickIsARowAndEveryPortGetsEveryReport) {
   Bench bench(2);
