@@ -18,6 +18,7 @@
 #include "tools/machine/machine_json.h"
 #include "tools/machine/machine_recording.h"
 #include "tools/machine/machine_run.h"
+#include "tools/machine/reproduction.h"
 #include "tools/machine/sweep.h"
 #include "tools/verb.h"
 
@@ -27,7 +28,7 @@ namespace {
 constexpr int figure_sample_ticks = 10;
 
 struct Options {
-  std::string config, compare, json, log, program;
+  std::string config, compare, json, log, program, reproduce;
   std::vector<std::string> set, sweep;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   bool list_keys = false;
@@ -76,6 +77,7 @@ int sweep(const MachineJob& job, const Options& options) {
 
 int run(const Options& options) {
   if (options.list_keys) return list_keys();
+  if (!options.reproduce.empty()) return reproduce(options.reproduce, options.json, options.threads);
   MachineJob job = read_job(options.config);
   take_program(job, options.program);
   // --set changes the job; in a comparison it changes B, so that a what-if is one line
@@ -118,6 +120,9 @@ std::function<int()> prepare_machine(CLI::App& app) {
       ->type_name("KEY=FROM:TO:N");
   app.add_option("--threads", options->threads, "for a sweep")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--log,--out", options->log, "write the recording, one row a tick (CSV)")->type_name("FILE");
+  app.add_option("--reproduce", options->reproduce,
+                 "set the source's Tables 3-5, Figs. 7-11 and Eq. 15 beside this program's (HTML)")
+      ->type_name("FILE");
   app.add_flag("--keys", options->list_keys, "list every key of a machine file and end");
   add_json_option(app, options->json);
   return [options] { return run(*options); };
