@@ -28,7 +28,7 @@ class Cogging final : public Effect {
 // clang-format off: a line a parameter
 inline constexpr std::array cogging_parameters{
     EffectParameter{"amplitude_Nm", "N m", 0.0, 10.0, {}, 0.0, "half of the torque from peak to peak"},
-    EffectParameter{"cycles_per_rev", "1/rev", 0.5, 256.0, {}, {}, "periods in a revolution"},
+    EffectParameter{"cycles_per_rev", "1/rev", 0.05, 1000.0, {}, {}, "periods in a revolution"},
     EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "phase at table position 0"},
 };
 // clang-format on

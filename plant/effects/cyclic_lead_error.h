@@ -29,7 +29,7 @@ class CyclicLeadError final : public Effect {
 // clang-format off: a line a parameter
 inline constexpr std::array cyclic_lead_error_parameters{
     EffectParameter{"amplitude_m", "m", 0.0, 0.001, {}, 0.0, "half of the wobble from peak to peak"},
-    EffectParameter{"cycles_per_rev", "1/rev", 0.1, 64.0, 1.0, {}, "periods in a revolution"},
+    EffectParameter{"cycles_per_rev", "1/rev", 0.05, 1000.0, 1.0, {}, "periods in a revolution"},
     EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "phase at table position 0"},
 };
 // clang-format on

@@ -29,7 +29,7 @@ class PositionFriction final : public Effect {
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array position_friction_parameters{
-    EffectParameter{"relative_slope_per_half_stroke", "1", -1.0, 1.0, {}, 0.0, "change from mid-stroke to the upper end over the nominal; positive: more friction at higher positions"},
+    EffectParameter{"relative_slope_per_half_stroke", "1", -3.0, 3.0, {}, 0.0, "change from mid-stroke to the upper end over the nominal; positive: more friction at higher positions"},
 };
 // clang-format on
 

@@ -27,7 +27,7 @@ class RevRipple final : public Effect {
 // clang-format off: a line a parameter
 inline constexpr std::array rev_ripple_parameters{
     EffectParameter{"amplitude_N", "N", 0.0, 10000.0, {}, 0.0, "half of the force from peak to peak, at the table"},
-    EffectParameter{"cycles_per_rev", "1/rev", 0.05, 64.0, 1.0, {}, "periods in a revolution"},
+    EffectParameter{"cycles_per_rev", "1/rev", 0.05, 1000.0, 1.0, {}, "periods in a revolution"},
     EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "phase at table position 0"},
 };
 // clang-format on

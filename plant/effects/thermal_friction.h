@@ -35,7 +35,7 @@ class ThermalFriction final : public Effect {
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array thermal_friction_parameters{
-    EffectParameter{"viscous_reduction", "1", -0.5, 0.95, {}, 0.0, "share of the viscous friction that is lost when warm; negative: friction rises"},
+    EffectParameter{"viscous_reduction", "1", -2.0, 0.95, {}, 0.0, "share of the viscous friction that is lost when warm; negative: friction rises"},
     EffectParameter{"energy_scale_J", "J", 0.01, 10000000.0, {}, {}, "friction work after which 63 % of the change is reached"},
 };
 // clang-format on

@@ -31,7 +31,7 @@ class TorqueRipple final : public Effect {
 // clang-format off: a line a parameter
 inline constexpr std::array torque_ripple_parameters{
     EffectParameter{"relative_amplitude", "1", 0.0, 0.9, {}, 0.0, "half of the ripple from peak to peak, over the torque"},
-    EffectParameter{"cycles_per_rev", "1/rev", 0.5, 256.0, {}, {}, "periods in a revolution"},
+    EffectParameter{"cycles_per_rev", "1/rev", 0.05, 1000.0, {}, {}, "periods in a revolution"},
     EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "phase at table position 0"},
 };
 // clang-format on

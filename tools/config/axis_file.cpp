@@ -50,7 +50,7 @@ plant::EffectSetting effect_at(TomlFile& file, const std::string& table, const p
 std::vector<plant::EffectSetting> effects_from(TomlFile& file) {
   std::vector<plant::EffectSetting> effects;
   for (const auto& id : file.names_in("effects")) {
-    const std::string table = "effects." + id;
+    const std::string table = fmt::format("effects.{}", id);
     const auto* entry = plant::find_effect(id);
     if (entry == nullptr) file.fail(table, "unknown effect");
     if (!file.has(table + "[0]")) {
