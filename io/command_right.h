@@ -2,7 +2,6 @@
 // Of several clients one is in command: the first to write. The others may read.
 
 #include <cstdint>
-#include <optional>
 
 #include "plant/realtime.h"
 
@@ -18,29 +17,34 @@ class CommandRight {
 
   /// `who` wants to write now. `taken`: he was not in command before.
   Answer ask(const Client& who, std::int64_t now_ns) noexcept FEEDTWIN_REALTIME {
-    if (holder_ && *holder_ == who) {
+    if (held_by(who)) {
       last_write_ns_ = now_ns;
       return Answer::kept;
     }
-    if (holder_ && now_ns - last_write_ns_ < idle_ns_) return Answer::refused;
+    if (held_ && now_ns - last_write_ns_ < idle_ns_) return Answer::refused;
     holder_ = who;
+    held_ = true;
     last_write_ns_ = now_ns;
     return Answer::taken;
   }
   /// `who` has gone. @return true if he was in command
   bool release(const Client& who) noexcept FEEDTWIN_REALTIME {
-    if (!holder_ || !(*holder_ == who)) return false;
-    holder_.reset();
+    if (!held_by(who)) return false;
+    held_ = false;
     return true;
   }
-  [[nodiscard]] const std::optional<Client>& holder() const noexcept FEEDTWIN_REALTIME { return holder_; }
+  [[nodiscard]] bool held() const noexcept FEEDTWIN_REALTIME { return held_; }
+  [[nodiscard]] bool held_by(const Client& who) const noexcept FEEDTWIN_REALTIME { return held_ && holder_ == who; }
+  /// The one in command, or the last one who was.
+  [[nodiscard]] const Client& holder() const noexcept FEEDTWIN_REALTIME { return holder_; }
   /// When the holder last wrote (or, after a release, its last one did).
   [[nodiscard]] std::int64_t last_write_ns() const noexcept FEEDTWIN_REALTIME { return last_write_ns_; }
 
  private:
   std::int64_t idle_ns_;
   std::int64_t last_write_ns_ = 0;
-  std::optional<Client> holder_;
+  Client holder_{};
+  bool held_ = false;
 };
 
 }  // namespace feedtwin::io

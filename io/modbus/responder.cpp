@@ -58,7 +58,7 @@ bool Responder::answer(int socket, ClientId client, std::span<const std::uint8_t
     sent = modbus_reply_exception(context_, frame.data(), static_cast<unsigned>(request.refusal));
   } else {
     if (writes) bank_.write(request, arrival_ns);  // before the reply, which takes longer
-    bank_.refresh(command_.holder().has_value());
+    bank_.refresh(command_.held());
     const auto registers = bank_.registers();
     modbus_mapping_t mapping{};
     mapping.tab_registers = registers.data();

@@ -30,7 +30,7 @@ class Responder {
   /// The client has gone.
   void leave(ClientId client) noexcept;
 
-  [[nodiscard]] bool in_command(ClientId client) const noexcept { return command_.holder() == client; }
+  [[nodiscard]] bool in_command(ClientId client) const noexcept { return command_.held_by(client); }
   [[nodiscard]] const Tallies& tallies() const noexcept { return tallies_; }
   [[nodiscard]] const Tally& clipped_torques() const noexcept { return bank_.clipped_torques(); }
 

@@ -42,7 +42,8 @@ class Session {
     return Verdict::use;
   }
 
-  [[nodiscard]] const std::optional<Peer>& commander() const noexcept FEEDTWIN_REALTIME { return command_.holder(); }
+  /// Where replies go; meaningful once sessions() > 0.
+  [[nodiscard]] const Peer& commander() const noexcept FEEDTWIN_REALTIME { return command_.holder(); }
   /// Of the last datagram used: as it came, and for the command guard, whom a new session must not look old.
   [[nodiscard]] std::uint32_t wire_sequence() const noexcept FEEDTWIN_REALTIME { return wire_sequence_; }
   [[nodiscard]] std::uint32_t sequence() const noexcept FEEDTWIN_REALTIME { return sequence_; }

@@ -185,9 +185,8 @@ bool UdpPort::wait_for_request(std::int64_t until_ns) noexcept {
 }
 
 bool UdpPort::send_reply() noexcept {
-  const auto& peer = session_.commander();
-  if (!peer || reply_bytes_ == 0) return false;
-  const sockaddr_in to = address_of(*peer);
+  if (reply_bytes_ == 0) return false;
+  const sockaddr_in to = address_of(session_.commander());
   ssize_t sent = -1;
   {
     FEEDTWIN_ADMIT_BEGIN  // MSG_DONTWAIT: queues the datagram or gives up
