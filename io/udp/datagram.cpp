@@ -29,7 +29,7 @@ void put(std::span<std::uint8_t> bytes, std::size_t at, Field field) noexcept FE
 }  // namespace
 
 bool decode(std::span<const std::uint8_t> bytes, std::size_t plant_axes, Request& request) noexcept {
-  if (bytes.size() < request_header_bytes || std::memcmp(bytes.data(), magic.data(), magic.size()) != 0) return false;
+  if (bytes.size() < request_header_bytes || !std::equal(magic.begin(), magic.end(), bytes.begin())) return false;
   const std::size_t axes = bytes[6];
   if (bytes[4] != version || bytes[5] != kind_request || axes < 1 || axes > plant_axes || axes > max_axes) return false;
   if (bytes.size() != request_header_bytes + request_axis_bytes * axes) return false;
