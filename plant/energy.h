@@ -20,6 +20,16 @@ struct AxisEnergy {
   double stored_J = 0.0;      ///< in the bristles, and in what effects store, now
   double lost_J = 0.0;        ///< turned to heat, mechanical only
 
+  AxisEnergy& operator+=(const AxisEnergy& more) noexcept {
+    for (double AxisEnergy::* entry :
+         {&AxisEnergy::motor_electrical_J, &AxisEnergy::motor_mechanical_J, &AxisEnergy::ball_screw_J, &AxisEnergy::guide_J,
+          &AxisEnergy::cutting_J, &AxisEnergy::end_stop_J, &AxisEnergy::load_J, &AxisEnergy::input_work_J,
+          &AxisEnergy::throughput_J, &AxisEnergy::kinetic_J, &AxisEnergy::stored_J, &AxisEnergy::lost_J}) {
+      this->*entry += more.*entry;
+    }
+    return *this;
+  }
+
   /// |work in - work on the components - cutting - end stops - loads| / throughput; 0 before anything has moved.
   [[nodiscard]] double balance_error() const noexcept {
     const double taken_J = motor_mechanical_J + ball_screw_J + guide_J + cutting_J + end_stop_J + load_J;

@@ -79,7 +79,7 @@ void PlantLoop::serve_axis(std::size_t i, bool fresh, std::int64_t now_ns) noexc
   row.axis = static_cast<std::int32_t>(i);
   row.state = guards_[i].state();
   row.encoder_counts = axis.signals().encoder_counts;
-  row.scale_position_m = axis.signals().position_m;
+  row.scale_position_m = axis.signals().scale_position_m;
   row.torque_command_Nm = decision.torque_Nm;
   row.metered_power_W = axis.signals().metered_power_W;
   if (settings_.record_forces) {

@@ -17,7 +17,7 @@ class CyclicLeadError final : public Effect {
   CyclicLeadError(const EffectContext& context, const EffectSetting& setting)
       : amplitude_m_(setting.values[0]), wave_(context.axis.axis.lead_m, setting.values[1], setting.values[2]) {}
   void sense(SensedTravel& travel) noexcept override {
-    if (amplitude_m_ != 0.0) travel.scale_m += amplitude_m_ * wave_.at(travel.scale_m);
+    if (amplitude_m_ != 0.0) travel.scale_m += amplitude_m_ * wave_.at(travel.shaft_m);
   }
 
  private:

@@ -14,7 +14,7 @@ namespace feedtwin::plant::effects {
 class LeadError final : public Effect {
  public:
   LeadError(const EffectContext& /*context*/, const EffectSetting& setting) : error_(setting.values[0]) {}
-  void sense(SensedTravel& travel) noexcept override { travel.scale_m += error_ * travel.scale_m; }
+  void sense(SensedTravel& travel) noexcept override { travel.scale_m += error_ * travel.shaft_m; }
 
  private:
   double error_;

@@ -1,7 +1,7 @@
 #pragma once
 // A friction bump at one place of the guide: a particle, a damaged track.
 //
-//   F_C and F_S of the guide plus H exp(-((x - x_0) / w)^2)
+//   F_C and F_S of the guide times 1 + H / F_C exp(-((x - x_0) / w)^2): sliding friction plus H
 //
 // H = height_N, x_0 = centre_m, w = half_width_m. It never falls below a hundredth of the nominal friction.
 

@@ -21,7 +21,7 @@ class ScrewGrowth final : public Effect {
   void tick(const TickStart& start) noexcept override {
     share_ = growth_ * (1.0 - std::exp(-(start.time_s + start.tick_s) / time_constant_s_));
   }
-  void sense(SensedTravel& travel) noexcept override { travel.scale_m += share_ * (travel.scale_m - fixed_m_); }
+  void sense(SensedTravel& travel) noexcept override { travel.scale_m += share_ * (travel.shaft_m - fixed_m_); }
 
  private:
   double growth_, time_constant_s_, fixed_m_;

@@ -73,10 +73,10 @@ std::string text_of(const plant::EffectSetting& setting, bool several) {
   auto list = setting.lists.begin();
   for (const auto& parameter : entry->parameters) {
     if (!parameter.list) {
-      text += fmt::format("{} = {:.17g}  # {}\n", parameter.name, *value++, parameter.meaning);
+      text += fmt::format("{} = {}  # {}\n", parameter.name, *value++, parameter.meaning);
     } else if (const auto& numbers = *list++; !numbers.empty()) {
       text += fmt::format("{} = [", parameter.name);
-      for (const double number : numbers) text += fmt::format("{:.17g}, ", number);
+      for (const double number : numbers) text += fmt::format("{}, ", number);
       text += fmt::format("]  # {}\n", parameter.meaning);
     }
   }
@@ -113,7 +113,7 @@ void write_axis_file(const std::string& path, plant::AxisParameters parameters) 
       table = entry.key.substr(0, dot);
       text += fmt::format("\n[{}]\n", table);
     }
-    text += fmt::format("{} = {:.17g}  # {}\n", entry.key.substr(dot + 1), entry.in(parameters), entry.meaning);
+    text += fmt::format("{} = {}  # {}\n", entry.key.substr(dot + 1), entry.in(parameters), entry.meaning);
   }
   for (const auto& setting : parameters.effects) {
     text += text_of(setting, std::ranges::count(parameters.effects, setting.id, &plant::EffectSetting::id) > 1);

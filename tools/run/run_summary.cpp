@@ -44,16 +44,7 @@ json to_json(const plant::AxisEnergy& e) {
 
 plant::AxisEnergy sum(const std::vector<plant::AxisEnergy>& axes) {
   plant::AxisEnergy total;
-  for (const auto& e : axes) {
-    total.motor_electrical_J += e.motor_electrical_J;
-    total.motor_mechanical_J += e.motor_mechanical_J;
-    total.ball_screw_J += e.ball_screw_J;
-    total.guide_J += e.guide_J;
-    total.cutting_J += e.cutting_J;
-    total.end_stop_J += e.end_stop_J;
-    total.input_work_J += e.input_work_J;
-    total.throughput_J += e.throughput_J;
-  }
+  for (const auto& energy : axes) total += energy;
   return total;
 }
 
@@ -105,6 +96,7 @@ nlohmann::json to_json(const RunSummary& summary) {
                            {"energy_balance_error", energy.balance_error()},
                            {"input_work_J", energy.input_work_J},
                            {"cutting_J", energy.cutting_J},
+                           {"load_J", energy.load_J},
                            {"lost_J", energy.lost_J},
                            {"stored_J", energy.stored_J},
                            {"kinetic_J", energy.kinetic_J}});
