@@ -37,6 +37,8 @@ void FeedAxis::place(double position_m, double velocity_m_per_s) noexcept {
   initial_speed_squared_m2_per_s2_ = velocity_m_per_s * velocity_m_per_s;
   throughput_J_ += 0.5 * model_.mass_kg * initial_speed_squared_m2_per_s2_;
   signals_.velocity_m_per_s = velocity_m_per_s;
+  placed_s_ = elapsed_s_;
+  screw_J_when_placed_ = losses_.screw_J;
   if (chain_) chain_->reset(position_m, velocity_m_per_s);
   sense();
   signals_.index_passed = false;
@@ -58,13 +60,20 @@ double FeedAxis::electrical_loss_J(const AxisLosses<double>& losses, double dura
          motor.electrical_quadratic_Ws2_per_m2.neg * losses.speed_travel_neg_m2_per_s;
 }
 
+TickStart FeedAxis::tick_start(double tick_s, double span_s) const noexcept {
+  return {.time_s = elapsed_s_ - placed_s_,
+          .tick_s = tick_s,
+          .span_s = span_s,
+          .state = state_,
+          .screw_friction_J = losses_.screw_J - screw_J_when_placed_};
+}
+
 /// What reaches the screw of an accepted command, mean over the tick.
 FeedAxis::Drive FeedAxis::deliver(const Drive& drive, double tick_s) noexcept {
   tick_s_ = tick_s;
   if (!chain_) return drive;
   if (chain_->remembers_forces()) chain_->take_forces(true_forces(drive));
-  return {chain_->start_tick(drive.torque_Nm, drive.cutting_force_N, {elapsed_s_, tick_s, tick_s, state_, losses_}),
-          drive.cutting_force_N};
+  return {chain_->start_tick(drive.torque_Nm, drive.cutting_force_N, tick_start(tick_s, tick_s)), drive.cutting_force_N};
 }
 
 AxisLosses<double> FeedAxis::integrate(const Drive& drive, double tick_s) noexcept {
@@ -134,7 +143,7 @@ ForceSignals FeedAxis::true_forces(const Drive& drive) const noexcept {
   double torque_Nm = drive.torque_Nm;
   EffectChain::Instant extra{};
   if (chain_) {
-    torque_Nm = chain_->torque_Nm(torque_Nm, {elapsed_s_, tick_s_, instant_s, state_, losses_});
+    torque_Nm = chain_->torque_Nm(torque_Nm, tick_start(tick_s_, instant_s));
     extra = chain_->instant(state_, torque_Nm, drive.cutting_force_N);
   }
   const bool hanging = chain_ && chain_->has_table();

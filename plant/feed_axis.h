@@ -55,6 +55,7 @@ class FeedAxis {
     double torque_Nm, cutting_force_N;
   };
   [[nodiscard]] Drive accept(const AxisCommand& command) const noexcept;
+  [[nodiscard]] TickStart tick_start(double tick_s, double span_s) const noexcept;
   [[nodiscard]] Drive deliver(const Drive& drive, double tick_s) noexcept;
   [[nodiscard]] AxisLosses<double> integrate(const Drive& drive, double tick_s) noexcept;
   void sense() noexcept;
@@ -74,6 +75,7 @@ class FeedAxis {
   AxisSignals signals_;
   double tick_s_ = 1e-3;  ///< of the last step
   double elapsed_s_ = 0.0;
+  double placed_s_ = 0.0, screw_J_when_placed_ = 0.0;  ///< where effects begin to count
   double input_work_J_ = 0.0;
   double throughput_J_ = 0.0;
   double cutting_J_ = 0.0;

@@ -102,12 +102,9 @@ Resolution EffectChain::at_least(Resolution resolution) const noexcept {
 }
 
 void EffectChain::reset(double position_m, double velocity_m_per_s) noexcept {
-  time_s_ = tick_phase_s_ = magnitude_J_ = motor_torque_J_ = 0.0;
+  time_s_ = tick_phase_s_ = 0.0;
   if (coupling_) coupling_->place(position_m, velocity_m_per_s);
-  for (auto& link : links_) {
-    link.effect->reset(position_m);
-    link.work_J = 0.0;
-  }
+  for (auto& link : links_) link.effect->reset(position_m);
 }
 
 double EffectChain::start_tick(double torque_Nm, double cutting_force_N, const TickStart& start) noexcept FEEDTWIN_REALTIME {

@@ -34,6 +34,7 @@ class EffectChain {
   /// Sub-steps that the effects want at least.
   [[nodiscard]] Resolution at_least(Resolution resolution) const noexcept;
 
+  /// Effects back to the start of a run; the work that they took stays in the account.
   void reset(double position_m, double velocity_m_per_s) noexcept;
 
   /// Start a tick; returns the motor's mean torque over it.
@@ -55,7 +56,7 @@ class EffectChain {
   void show_forces(ForceSignals& forces) const noexcept FEEDTWIN_REALTIME;
   void take_forces(const ForceSignals& forces) noexcept FEEDTWIN_REALTIME;
 
-  // work since reset, in the loop of the tick: what effects took from the motor's torque; guide and stops of the table
+  // work, in the loop of the tick: what effects took from the motor's torque; guide and stops of the table
   [[nodiscard]] double motor_torque_J() const noexcept { return motor_torque_J_; }
   [[nodiscard]] double guide_J() const noexcept { return coupling_ ? coupling_->guide_J() : 0.0; }
   [[nodiscard]] double stop_J() const noexcept { return coupling_ ? coupling_->stop_J() : 0.0; }
@@ -73,7 +74,7 @@ class EffectChain {
   [[nodiscard]] Instant instant(const AxisState<double>& state, double torque_Nm,
                                 double cutting_force_N) const noexcept FEEDTWIN_REALTIME;
 
-  /// Work that the effects took since reset, by where it went.
+  /// Work that the effects took, by where it went.
   struct Work {
     double motor_J = 0.0, screw_J = 0.0, guide_J = 0.0, load_J = 0.0;  ///< by component
     double stored_J = 0.0, lost_J = 0.0;

@@ -33,7 +33,7 @@ Coupling::Coupling(const CouplingParameters& parameters, const AxisModel<double>
 void Coupling::place(double position_m, double velocity_m_per_s) noexcept {
   position_m_ = position_m;
   velocity_m_per_s_ = velocity_m_per_s;
-  acceleration_m_per_s2_ = bristle_m_ = guide_J_ = stop_J_ = own_J_ = 0.0;
+  acceleration_m_per_s2_ = bristle_m_ = 0.0;
 }
 
 ContactForce Coupling::contact(double d_m, double rate_m_per_s, double h_s) const noexcept {

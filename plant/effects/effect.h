@@ -20,10 +20,11 @@ struct EffectContext {
 
 /// The axis at the start of a tick.
 struct TickStart {
-  double time_s, tick_s;
+  double time_s;  ///< since the axis was placed
+  double tick_s;
   double span_s;  ///< over what a torque is averaged: the tick, or next to nothing for the torque at its start
   const AxisState<double>& state;
-  const AxisLosses<double>& losses;  ///< since the start
+  double screw_friction_J;  ///< work on the ball screw's friction since the axis was placed
 };
 
 /// A sub-step as the effect's side of the transmission sees it (screw or table; the same without compliance).

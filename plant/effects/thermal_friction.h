@@ -20,7 +20,7 @@ class ThermalFriction final : public Effect {
       : reduction_(setting.values[0]), energy_J_(setting.values[1]) {}
 
   void tick(const TickStart& start) noexcept override {
-    factor_ = 1.0 - reduction_ * (1.0 - std::exp(-std::max(0.0, start.losses.screw_J) / energy_J_));
+    factor_ = 1.0 - reduction_ * (1.0 - std::exp(-std::max(0.0, start.screw_friction_J) / energy_J_));
   }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
