@@ -38,7 +38,7 @@ plant::EffectSetting effect_at(TomlFile& file, const std::string& table, const p
   }
   for (const auto& name : file.names_in(table)) {
     if (std::ranges::find(entry.parameters, name, &plant::EffectParameter::name) == entry.parameters.end()) {
-      file.fail(table + "." + name, fmt::format("{} has no such parameter", entry.id));
+      file.fail(fmt::format("{}.{}", table, name), fmt::format("{} has no such parameter", entry.id));
     }
   }
   const std::string problem = entry.problem != nullptr ? entry.problem(setting) : "";
