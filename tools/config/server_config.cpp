@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "io/faults/fault_port.h"
 #include "plant/parameter_table.h"
 #include "tools/config/axis_file.h"
 #include "tools/config/input_error.h"
@@ -130,6 +131,16 @@ void read_ports(TomlFile& file, bool built_in, ServerConfig& config) {
   }
 }
 
+void read_faults(TomlFile& file, ServerConfig& config) {
+  std::vector<std::string> names{"loopback"};
+  for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
+  config.faults = faults_from(file, names, static_cast<int>(config.axes.size()));
+  for (auto& port : config.ports) {
+    auto own = faults_of(config.faults, port->name());
+    if (!own.empty()) port = std::make_unique<io::faults::FaultPort>(std::move(port), std::move(own), config.context());
+  }
+}
+
 void choose_controller(const TomlFile& file, const std::optional<std::string>& asked, ServerConfig& config) {
   std::vector<std::string> names{"loopback"};
   for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
@@ -171,6 +182,7 @@ ServerConfig read_server_config(const ConfigRequest& request) {
     config.loopback.push_back(loopback_of(file, table, config.axes[i]));
   }
   read_ports(file, built_in, config);
+  read_faults(file, config);
   file.reject_unknown();
   if (!request.with_ports) config.ports.clear();
   return config;

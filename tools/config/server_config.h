@@ -1,6 +1,6 @@
 #pragma once
 // The configuration of `serve` and `simulate`. An axis file by itself is one already; more keys stand in tables of their
-// own: [server], [loopback], [log], [[port]]. See systemd/feedtwin.toml for all of them.
+// own: [server], [loopback], [log], [[port]], [[fault]]. See systemd/feedtwin.toml for all of them.
 
 #include <memory>
 #include <optional>
@@ -13,6 +13,7 @@
 #include "rt/plant_loop.h"
 #include "rt/rt_setup.h"
 #include "rt/tick_clock.h"
+#include "tools/config/fault_list.h"
 #include "tools/loopback/loopback_port.h"
 
 namespace feedtwin::tools {
@@ -32,6 +33,7 @@ struct ServerConfig {
   std::string controller;                        ///< "loopback" or the kind of the commanding port
   std::vector<LoopbackSettings> loopback;        ///< one for each axis
   std::vector<std::unique_ptr<io::Port>> ports;  ///< made, not yet open
+  std::vector<ConfiguredFault> faults;           ///< on purpose; worked into `ports` already, the loopback's are not
   std::string log_path;                          ///< empty: no log
 
   [[nodiscard]] io::PortContext context() const;

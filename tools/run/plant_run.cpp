@@ -16,6 +16,9 @@ PlantRun::PlantRun(ServerConfig config, std::uint64_t ticks) : config_(std::move
   config_.loop.ticks = ticks;
   for (const auto& parameters : config_.axes) axes_.emplace_back(parameters);
   if (config_.controller == "loopback") loopback_ = std::make_unique<LoopbackPort>(config_.loopback, config_.context());
+  if (auto own = faults_of(config_.faults, "loopback"); loopback_ && !own.empty()) {
+    faulty_loopback_ = std::make_unique<io::faults::FaultPort>(*loopback_, std::move(own), config_.context());
+  }
   make_log();
   for (const auto& port : config_.ports) {
     try {
@@ -46,6 +49,7 @@ void PlantRun::make_log() {
 }
 
 io::Port& PlantRun::commanding_port() {
+  if (faulty_loopback_) return *faulty_loopback_;
   if (loopback_) return *loopback_;
   for (const auto& port : config_.ports) {
     if (port->name() == config_.controller) return *port;
@@ -94,8 +98,15 @@ void PlantRun::run_in_real_time(std::atomic<bool>& stop) {
   log_->finish();
 }
 
+std::vector<io::Port*> PlantRun::reporting_ports() const {
+  std::vector<io::Port*> ports;
+  for (const auto& port : config_.ports) ports.push_back(port.get());
+  if (faulty_loopback_) ports.push_back(faulty_loopback_.get());
+  return ports;
+}
+
 void PlantRun::note_port_events() {
-  for (const auto& port : config_.ports) {
+  for (auto* port : reporting_ports()) {
     for (const auto& event : port->take_events()) log_->note(event.time_s, fmt::format("{}: {}", port->name(), event.text));
   }
 }
@@ -131,6 +142,7 @@ void PlantRun::run_off_line() {
   for (std::uint64_t done = 0; done < ticks; done += piece) {
     loop_->run_to(std::min(ticks, done + piece), stop);
     log_->drain(*loop_);
+    note_port_events();
   }
   log_->finish();
 }
@@ -159,7 +171,7 @@ RunSummary PlantRun::summary(const std::string& verb) {
     facts.finite =
         facts.finite && std::isfinite(axes_[i].state().position_m) && std::isfinite(axes_[i].state().velocity_m_per_s);
   }
-  for (const auto& port : config_.ports) {
+  for (const auto* port : reporting_ports()) {
     for (auto& counter : port->counters()) {
       counter.name = fmt::format("{}: {}", port->name(), counter.name);
       facts.counters.push_back(std::move(counter));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "io/faults/fault_port.h"
 #include "plant/feed_axis.h"
 #include "rt/plant_loop.h"
 #include "tools/config/server_config.h"
@@ -31,6 +32,8 @@ class PlantRun {
 
  private:
   [[nodiscard]] io::Port& commanding_port();
+  /// Every port that has counters and events.
+  [[nodiscard]] std::vector<io::Port*> reporting_ports() const;
   void make_log();
   void make_loop(rt::TickClock& clock);
   void note_port_events();
@@ -39,6 +42,7 @@ class PlantRun {
   ServerConfig config_;
   std::vector<plant::FeedAxis> axes_;
   std::unique_ptr<LoopbackPort> loopback_;
+  std::unique_ptr<io::faults::FaultPort> faulty_loopback_;  ///< where the configuration has faults for it
   std::unique_ptr<RunLog> log_;
   std::unique_ptr<rt::TickClock> clock_;
   std::unique_ptr<rt::PlantLoop> loop_;

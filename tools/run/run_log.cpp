@@ -179,7 +179,9 @@ void RunLog::keep_for_late_ticks(const rt::AxisRecord& row) {
   if (recent_.size() > ticks_before_late) recent_.pop_front();
 }
 
-void RunLog::note(double time_s, const std::string& text) { events_->info("{:.3f} s {}", time_s, text); }
+void RunLog::note(double time_s, const std::string& text) {
+  events_->info("{:.3f} s {}", time_s, text);
+}
 
 void RunLog::write_event(const rt::Event& event) {
   const std::string what = fmt::format(fmt::runtime(rt::meaning(event.kind)), event.value);
