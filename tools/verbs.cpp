@@ -1,7 +1,7 @@
 #include <array>
 
-#include "tools/compare.h"
 #include "tools/can_files.h"
+#include "tools/compare.h"
 #include "tools/diagnose.h"
 #include "tools/identify.h"
 #include "tools/latency/latency.h"

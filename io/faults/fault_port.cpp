@@ -120,7 +120,7 @@ std::vector<PortEvent> FaultPort::take_events() {
     const auto& happening = happenings_[told_];
     const auto& fault = faults_[happening.fault].fault;
     const auto& kind = named(fault.kind);
-    std::string text = "fault on purpose, port " + std::string(inner_.name());
+    std::string text = "fault on purpose";
     if (fault.axis >= 0) text += ", axis " + std::to_string(fault.axis);
     text += ": " + std::string(kind.name) + (happening.begins ? " (" + std::string(kind.meaning) + ")" : " ends");
     events.push_back({happening.time_s, std::move(text)});

@@ -34,12 +34,15 @@ io::faults::Fault fault_of(TomlFile& file, const std::string& table, int axes) {
 
 }  // namespace
 
-std::vector<ConfiguredFault> faults_from(TomlFile& file, const std::vector<std::string>& ports, int axes) {
+std::vector<ConfiguredFault> faults_from(TomlFile& file, const std::vector<std::string>& ports,
+                                         const std::string& controller, int axes) {
   std::vector<ConfiguredFault> faults;
   const std::size_t count = file.tables_in("fault");
   for (std::size_t i = 0; i < count; ++i) {
     const std::string table = fmt::format("fault[{}]", i);
-    ConfiguredFault configured{fault_of(file, table, axes), file.word(table + ".port", ports, "")};
+    ConfiguredFault configured{fault_of(file, table, axes), ""};
+    const bool of_commands = !io::faults::named(configured.fault.kind).encoder;
+    configured.port = file.word(table + ".port", ports, of_commands ? controller : "");
     faults.push_back(std::move(configured));
   }
   return faults;

@@ -12,11 +12,13 @@ namespace feedtwin::tools {
 
 struct ConfiguredFault {
   io::faults::Fault fault;
-  std::string port;  ///< the name of the port that it acts on; empty: every port
+  std::string port;  ///< that it acts on; empty: every port
 };
 
-/// Throws InputError. @param ports the names that `port` may be
-[[nodiscard]] std::vector<ConfiguredFault> faults_from(TomlFile& file, const std::vector<std::string>& ports, int axes);
+/// Throws InputError. @param ports the names that `port` may be; @param controller whose commands are meant where none is
+/// given
+[[nodiscard]] std::vector<ConfiguredFault> faults_from(TomlFile& file, const std::vector<std::string>& ports,
+                                                       const std::string& controller, int axes);
 
 /// Those that act on a port.
 [[nodiscard]] std::vector<io::faults::Fault> faults_of(const std::vector<ConfiguredFault>& faults, std::string_view port);

@@ -134,7 +134,7 @@ void read_ports(TomlFile& file, bool built_in, ServerConfig& config) {
 void read_faults(TomlFile& file, ServerConfig& config) {
   std::vector<std::string> names{"loopback"};
   for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
-  config.faults = faults_from(file, names, static_cast<int>(config.axes.size()));
+  config.faults = faults_from(file, names, config.controller, static_cast<int>(config.axes.size()));
   for (auto& port : config.ports) {
     auto own = faults_of(config.faults, port->name());
     if (!own.empty()) port = std::make_unique<io::faults::FaultPort>(std::move(port), std::move(own), config.context());

@@ -194,12 +194,12 @@ TEST(FaultPort, SaysWhatHappensWhenItHappens) {
   auto events = run.port.take_events();
   ASSERT_EQ(events.size(), 1U);
   EXPECT_DOUBLE_EQ(events[0].time_s, 0.010);
-  EXPECT_EQ(events[0].text, "fault on purpose, port script: lost_command (commands don't arrive)");
+  EXPECT_EQ(events[0].text, "fault on purpose: lost_command (commands don't arrive)");
   for (int i = 0; i < 12; ++i) run.tick();
   events = run.port.take_events();
   ASSERT_EQ(events.size(), 2U);
   EXPECT_DOUBLE_EQ(events[1].time_s, 0.015);
-  EXPECT_EQ(events[1].text, "fault on purpose, port script: lost_command ends");
+  EXPECT_EQ(events[1].text, "fault on purpose: lost_command ends");
 }
 
 }  // namespace
