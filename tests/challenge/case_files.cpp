@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,7 @@ std::string file_list(const std::vector<NamedRun>& runs) {
 }
 
 nlohmann::json key_of(const Case& c, std::uint64_t seed) {
+  const bool in_torque = std::ranges::any_of(c.hidden, [](const Hidden* h) { return h->seen_in_torque; });
   nlohmann::json key = {{"seed", seed},
                         {"kind", c.kind},
                         {"effects", nlohmann::json::object()},
@@ -79,7 +81,7 @@ nlohmann::json key_of(const Case& c, std::uint64_t seed) {
                         {"disturbance_N", c.noise.disturbance_N},
                         {"residual_N", c.residual_N},
                         {"effect_N", c.effect_N},
-                        {"strength", c.effect_N / c.residual_N}};
+                        {"strength", in_torque ? c.effect_N / c.residual_N : 0.0}};
   std::vector<std::string> tolerated;
   if (c.truth.maxwell_slip) tolerated.push_back("presliding_memory");  // it is there: the nominal model has one bristle
   if (c.truth.coupling_N_per_m > 0.0) tolerated.push_back("screw_compliance");
