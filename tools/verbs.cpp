@@ -1,6 +1,7 @@
 #include <array>
 
 #include "tools/can_files.h"
+#include "tools/check/check.h"
 #include "tools/compare.h"
 #include "tools/diagnose.h"
 #include "tools/identify.h"
@@ -25,6 +26,7 @@ std::span<const Verb> verbs() noexcept {
            prepare_machine},
       Verb{"identify", "parameters of an axis from recordings", prepare_identify},
       Verb{"compare", "simulation against recording, per channel, with metrics and pictures", prepare_compare},
+      Verb{"check", "is this host fit for real time, and what to change", prepare_check},
       Verb{"report", "a self-contained HTML page of any run, comparison or diagnosis", prepare_report},
       Verb{"can-files", "writes the CANopen drives' EDS (CiA 306) and DBC", prepare_can_files},
   };
