@@ -2,11 +2,11 @@
 
 namespace feedtwin::controllers {
 
-void Cascade::reset(double position_m) noexcept {
+void Cascade::reset(double position_m) noexcept FEEDTWIN_REALTIME {
   law_.reset(position_m);
 }
 
-double Cascade::torque_Nm(const Reference& reference, double position_m, double tick_s) noexcept {
+double Cascade::torque_Nm(const Reference& reference, double position_m, double tick_s) noexcept FEEDTWIN_REALTIME {
   return law_.torque_Nm(reference, position_m, tick_s);
 }
 

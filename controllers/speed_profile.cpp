@@ -32,7 +32,7 @@ SpeedRamp::SpeedRamp(double from_m_per_s, double to_m_per_s, const MoveLimits& l
   jerk_ = to_ < from_ ? -j : j;
 }
 
-Reference SpeedRamp::at(double time_s) const noexcept {
+Reference SpeedRamp::at(double time_s) const noexcept FEEDTWIN_REALTIME {
   const double peak = jerk_ * jerk_s_;
   const double t1 = std::clamp(time_s, 0.0, jerk_s_);
   Reference r{t1 * (from_ + jerk_ * t1 * t1 / 6.0), from_ + 0.5 * jerk_ * t1 * t1, jerk_ * t1};
@@ -66,7 +66,7 @@ SpeedProfile::SpeedProfile(double from_m_per_s, double to_m_per_s, double distan
   cruise_s_ = speed_ > 0.0 ? std::max(0.0, rest_m / speed_) : 0.0;
 }
 
-Reference SpeedProfile::at(double time_s) const noexcept {
+Reference SpeedProfile::at(double time_s) const noexcept FEEDTWIN_REALTIME {
   if (time_s >= duration_s()) return {distance_m_, last_speed_, 0.0};
   const double rise_s = rise_.duration_s();
   if (time_s < rise_s) return rise_.at(time_s);

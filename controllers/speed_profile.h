@@ -3,6 +3,7 @@
 // it, down to another speed. Acceleration is zero at both ends and while cruising, so stretches join without a jump.
 
 #include "controllers/reference.h"
+#include "plant/realtime.h"
 
 namespace feedtwin::controllers {
 
@@ -17,7 +18,7 @@ class SpeedRamp {
   SpeedRamp(double from_m_per_s, double to_m_per_s, const MoveLimits& limits) noexcept;
   [[nodiscard]] double duration_s() const noexcept { return 2.0 * jerk_s_ + hold_s_; }
   [[nodiscard]] double distance_m() const noexcept { return 0.5 * (from_ + to_) * duration_s(); }
-  [[nodiscard]] Reference at(double time_s) const noexcept;
+  [[nodiscard]] Reference at(double time_s) const noexcept FEEDTWIN_REALTIME;
 
  private:
   double from_ = 0.0, to_ = 0.0, jerk_ = 0.0;  // jerk_ with the sign of the change
@@ -34,7 +35,7 @@ class SpeedProfile {
   SpeedProfile(double from_m_per_s, double to_m_per_s, double distance_m, const MoveLimits& limits) noexcept;
   [[nodiscard]] double duration_s() const noexcept { return rise_.duration_s() + cruise_s_ + fall_.duration_s(); }
   /// Position counts from the start of the stretch. Wait-free.
-  [[nodiscard]] Reference at(double time_s) const noexcept;
+  [[nodiscard]] Reference at(double time_s) const noexcept FEEDTWIN_REALTIME;
 
  private:
   SpeedRamp rise_, fall_;

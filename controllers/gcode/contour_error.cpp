@@ -6,7 +6,7 @@
 
 namespace feedtwin::controllers::gcode {
 
-double planar_distance_m(const Segment& segment, double x_m, double y_m) noexcept {
+double planar_distance_m(const Segment& segment, double x_m, double y_m) noexcept FEEDTWIN_REALTIME {
   const Point &a = segment.from_m(), &b = segment.to_m();
   if (segment.is_arc() && segment.axis() == 2) {
     const double x = x_m - segment.centre_m().x, y = y_m - segment.centre_m().y;
@@ -24,7 +24,8 @@ double planar_distance_m(const Segment& segment, double x_m, double y_m) noexcep
   return std::hypot(x_m - a.x - t * dx, y_m - a.y - t * dy);
 }
 
-double contour_error_m(const std::vector<Segment>& segments, std::size_t current, double x_m, double y_m) noexcept {
+double contour_error_m(const std::vector<Segment>& segments, std::size_t current, double x_m,
+                       double y_m) noexcept FEEDTWIN_REALTIME {
   if (current >= segments.size()) return 0.0;
   double nearest = planar_distance_m(segments[current], x_m, y_m);
   if (current > 0) nearest = std::min(nearest, planar_distance_m(segments[current - 1], x_m, y_m));

@@ -73,7 +73,7 @@ CornerBlend::CornerBlend(const Segment& before, const Segment& after, double cut
   }
 }
 
-CornerBlend::Sample CornerBlend::at(double u, double speed_m_per_s) const noexcept {
+CornerBlend::Sample CornerBlend::at(double u, double speed_m_per_s) const noexcept FEEDTWIN_REALTIME {
   const double rate = speed_m_per_s / (2.0 * cut_m_);
   Sample s;
   for (int axis = 0; axis < 3; ++axis) {

@@ -9,6 +9,7 @@
 #include <array>
 
 #include "controllers/gcode/segment.h"
+#include "plant/realtime.h"
 
 namespace feedtwin::controllers::gcode {
 
@@ -29,7 +30,7 @@ class CornerBlend {
     Point at_m, velocity_m_per_s, acceleration_m_per_s2;
   };
   /// @param u from 0 to 1
-  [[nodiscard]] Sample at(double u, double speed_m_per_s) const noexcept;
+  [[nodiscard]] Sample at(double u, double speed_m_per_s) const noexcept FEEDTWIN_REALTIME;
 
  private:
   std::array<std::array<double, 6>, 3> c_{};  // coefficients by axis, of powers of u

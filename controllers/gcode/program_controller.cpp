@@ -45,7 +45,7 @@ const plant::MachineCommand& ProgramController::step(double x_m, double y_m, dou
   return command_;
 }
 
-double ProgramController::contour_error_m(double x_m, double y_m) const noexcept {
+double ProgramController::contour_error_m(double x_m, double y_m) const noexcept FEEDTWIN_REALTIME {
   return gcode::contour_error_m(trajectory_.segments(), setpoint_.segment, x_m, y_m);
 }
 

@@ -28,7 +28,7 @@ class ProgramController {
   [[nodiscard]] const Trajectory& trajectory() const noexcept { return trajectory_; }
   [[nodiscard]] const EngagementMap& engagement() const noexcept { return engagement_; }
   /// Distance of a position from the programmed path. Wait-free.
-  [[nodiscard]] double contour_error_m(double x_m, double y_m) const noexcept;
+  [[nodiscard]] double contour_error_m(double x_m, double y_m) const noexcept FEEDTWIN_REALTIME;
 
  private:
   void switch_on_time() noexcept;

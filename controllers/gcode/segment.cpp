@@ -42,7 +42,7 @@ Segment Segment::arc(const Point& from_m, const ArcFeed& arc) noexcept {
   return s;
 }
 
-CurvePoint Segment::at(double s_m) const noexcept {
+CurvePoint Segment::at(double s_m) const noexcept FEEDTWIN_REALTIME {
   if (!is_arc_) return {from_m_ + s_m * drift_, drift_, {}};
   const int first = (axis_ + 1) % 3, second = (axis_ + 2) % 3;
   const double turn = sweep_rad_ / length_m_;

@@ -5,6 +5,7 @@
 
 #include "controllers/gcode/canonical.h"
 #include "controllers/speed_profile.h"
+#include "plant/realtime.h"
 
 namespace feedtwin::controllers::gcode {
 
@@ -28,7 +29,7 @@ class Segment {
   static Segment arc(const Point& from_m, const ArcFeed& arc) noexcept;
 
   [[nodiscard]] double length_m() const noexcept { return length_m_; }
-  [[nodiscard]] CurvePoint at(double s_m) const noexcept;
+  [[nodiscard]] CurvePoint at(double s_m) const noexcept FEEDTWIN_REALTIME;
   [[nodiscard]] const Point& from_m() const noexcept { return from_m_; }
   [[nodiscard]] const Point& to_m() const noexcept { return to_m_; }
   [[nodiscard]] bool is_arc() const noexcept { return is_arc_; }

@@ -4,7 +4,7 @@
 
 namespace feedtwin::controllers::gcode {
 
-Setpoint Trajectory::at(double time_s, Cursor& cursor) const noexcept {
+Setpoint Trajectory::at(double time_s, Cursor& cursor) const noexcept FEEDTWIN_REALTIME {
   while (cursor.piece < pieces_.size() && time_s >= pieces_[cursor.piece].start_s + pieces_[cursor.piece].duration_s) {
     ++cursor.piece;
   }

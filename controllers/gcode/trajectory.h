@@ -8,6 +8,7 @@
 #include "controllers/gcode/corner_blend.h"
 #include "controllers/gcode/segment.h"
 #include "controllers/speed_profile.h"
+#include "plant/realtime.h"
 
 namespace feedtwin::controllers::gcode {
 
@@ -35,7 +36,7 @@ class Trajectory {
 
   [[nodiscard]] double duration_s() const noexcept { return duration_s_; }
   /// Wait-free; its cost is that of the pieces passed since the cursor's last reading.
-  [[nodiscard]] Setpoint at(double time_s, Cursor& cursor) const noexcept;
+  [[nodiscard]] Setpoint at(double time_s, Cursor& cursor) const noexcept FEEDTWIN_REALTIME;
   [[nodiscard]] const std::vector<Segment>& segments() const noexcept { return segments_; }
   [[nodiscard]] const std::vector<SwitchingEvent>& events() const noexcept { return events_; }
   [[nodiscard]] double largest_blend_deviation_m() const noexcept { return largest_blend_deviation_m_; }

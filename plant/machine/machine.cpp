@@ -70,7 +70,9 @@ const MachineSignals& Machine::step(const MachineCommand& command, double tick_s
   signals_.x = x_.step({command.torque_x_Nm, -load.force_x_N}, tick_s);
   signals_.y = y_.step({command.torque_y_Nm, -load.force_y_N}, tick_s);
   // against the rotation; run-out with the regenerative chip can give a mean that drives, which the mid-point rule takes too
-  spindle_.step(command.spindle_speed_rad_per_s, load.torque_Nm, tick_s);
+  const bool finite = std::isfinite(command.spindle_speed_rad_per_s);
+  if (!finite) ++clipped_speeds_;
+  spindle_.step(finite ? command.spindle_speed_rad_per_s : 0.0, load.torque_Nm, tick_s);
 
   const auto& auxiliary = parameters_.auxiliary;
   signals_.pump_on = auxiliary.pump_policy == PumpPolicy::always ||

@@ -88,6 +88,11 @@ class Machine {
   /// Ticks in which the tool was pushed into material with the spindle standing: there is no force model for that.
   [[nodiscard]] std::int64_t stalled_ticks() const noexcept { return stalled_ticks_; }
 
+  /// Inputs that were not finite or beyond a limit, of both axes and the spindle's speed.
+  [[nodiscard]] std::int64_t clipped_inputs() const noexcept {
+    return x_.clipped_inputs() + y_.clipped_inputs() + clipped_speeds_;
+  }
+
   /// Put the table somewhere, at rest. Set-up only.
   void place(double x_m, double y_m) noexcept;
 
@@ -101,7 +106,7 @@ class Machine {
   MachineSignals signals_;
   double pump_J_ = 0.0, tip_J_ = 0.0, removed_m3_ = 0.0, input_J_ = 0.0, time_s_ = 0.0;
   double last_electrical_J_ = 0.0;
-  std::int64_t stalled_ticks_ = 0;
+  std::int64_t stalled_ticks_ = 0, clipped_speeds_ = 0;
 
   struct Place {
     double x_m, y_m;

@@ -15,6 +15,7 @@
 #include "tools/config/whole_file.h"
 #include "tools/json_option.h"
 #include "tools/machine/job_keys.h"
+#include "tools/machine/machine_figures.h"
 #include "tools/machine/machine_json.h"
 #include "tools/machine/machine_recording.h"
 #include "tools/machine/machine_run.h"
@@ -70,6 +71,7 @@ int sweep(const MachineJob& job, const Options& options) {
     fmt::print("SEC = {:.3f} / MRR + {:.3f} J/mm3, MRR in mm3/s ({} points, rms {:.3f} J/mm3)\n", fit.a_W, fit.b_J_per_mm3,
                fit.points, fit.rms_J_per_mm3);
     json["sec_fit"] = to_json(fit);
+    json["figures"] = to_json(sweep_figures(points, fit));
   }
   write_json(options.json, json);
   return done;
@@ -98,8 +100,14 @@ int run(const Options& options) {
     for (const auto& setting : options.set) b_name += ", " + setting;
     print_comparison(job.name, result, b_name, b);
     json["compared"] = to_json(b);
+    if (figures) {
+      auto drawn = machine_figures(result, "A: ");
+      for (auto& figure : machine_figures(b, "B: ")) drawn.push_back(std::move(figure));
+      json["figures"] = to_json(drawn);
+    }
   } else {
     print(job.name, result);
+    if (figures) json["figures"] = to_json(machine_figures(result));
   }
   write_json(options.json, json);
   return done;

@@ -126,7 +126,7 @@ class Run {
     result_.before_cutting = before_.mean();
     result_.cutting = cutting_.mean();
     result_.after_cutting = after_.mean();
-    result_.clipped_inputs = machine_.x().clipped_inputs() + machine_.y().clipped_inputs();
+    result_.clipped_inputs = machine_.clipped_inputs();
     result_.stalled_ticks = machine_.stalled_ticks();
     result_.wall_s = wall_s;
   }
