@@ -21,6 +21,7 @@ inline constexpr int max_axes = 64;
 struct AxisRequest {
   double torque_Nm = 0.0;
   std::uint32_t sequence = 0;    ///< the controller's count of its own commands
+  bool counted = true;           ///< false: the controller does not count, and the sequence says nothing
   std::int64_t arrival_ns = 0;   ///< CLOCK_MONOTONIC, when it came off the wire
   std::int64_t watchdog_ns = 0;  ///< the controller's own watchdog time; 0: the configuration's
   bool enable = false;

@@ -36,11 +36,14 @@ void FeedAxis::place(double position_m, double velocity_m_per_s) noexcept {
   state_.velocity_m_per_s = velocity_m_per_s;
   initial_speed_squared_m2_per_s2_ = velocity_m_per_s * velocity_m_per_s;
   throughput_J_ += 0.5 * model_.mass_kg * initial_speed_squared_m2_per_s2_;
-  signals_.velocity_m_per_s = velocity_m_per_s;
   placed_s_ = elapsed_s_;
   screw_J_when_placed_ = losses_.screw_J;
   if (chain_) chain_->reset(position_m, velocity_m_per_s);
-  sense();
+  if (chain_) {
+    show_with_effects();
+  } else {
+    show({position_m, position_m}, true_encoder_.counts(position_m));
+  }
   signals_.index_passed = false;
 }
 
@@ -68,68 +71,76 @@ TickStart FeedAxis::tick_start(double tick_s, double span_s) const noexcept {
           .screw_friction_J = losses_.screw_J - screw_J_when_placed_};
 }
 
-/// What reaches the screw of an accepted command, mean over the tick.
-FeedAxis::Drive FeedAxis::deliver(const Drive& drive, double tick_s) noexcept {
-  tick_s_ = tick_s;
-  if (!chain_) return drive;
-  if (chain_->remembers_forces()) chain_->take_forces(true_forces(drive));
-  return {chain_->start_tick(drive.torque_Nm, drive.cutting_force_N, tick_start(tick_s, tick_s)), drive.cutting_force_N};
-}
-
-AxisLosses<double> FeedAxis::integrate(const Drive& drive, double tick_s) noexcept {
-  const double motor_N = drive.torque_Nm * model_.transmission_rad_per_m;
-  if (!chain_) {
-    NoEffects<double> none;
-    return integrate_tick<double>(model_, state_, none, motor_N - drive.cutting_force_N, tick_s, resolution_);
-  }
-  const double on_screw_N = chain_->has_table() ? 0.0 : drive.cutting_force_N;
-  const double guide_J = chain_->guide_J();
-  const double stop_J = chain_->stop_J();
-  auto taken = integrate_tick<double>(driven_, state_, *chain_, motor_N - on_screw_N, tick_s, resolution_);
-  taken.guide_J += chain_->guide_J() - guide_J;
-  taken.stop_J += chain_->stop_J() - stop_J;
-  return taken;
-}
-
-const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noexcept FEEDTWIN_REALTIME {
-  const Drive accepted = accept(command);
-  clipped_inputs_ += (accepted.torque_Nm != command.torque_Nm) + (accepted.cutting_force_N != command.cutting_force_N);
-  const double ripple_before_J = chain_ ? chain_->motor_torque_J() : 0.0;
-  const Drive drive = deliver(accepted, tick_s);
-  const double before_m = state_.position_m;
-  const double table_before_m = table_position_m();
-  const AxisLosses<double> taken = integrate(drive, tick_s);
+/// What a tick took, entered into the account. @return drive input, mean over the tick, W
+inline double FeedAxis::account(const AxisLosses<double>& taken, double work_J, double cutting_J, double tick_s) noexcept {
   losses_ += taken;
   elapsed_s_ += tick_s;
-  const double motor_force_N = drive.torque_Nm * model_.transmission_rad_per_m;
-  const double rippling_J = chain_ ? chain_->motor_torque_J() - ripple_before_J : 0.0;
-  const double work_J = motor_force_N * (state_.position_m - before_m) - rippling_J;
-  const double cutting_J = drive.cutting_force_N * (table_position_m() - table_before_m);
   input_work_J_ += work_J;
   throughput_J_ += std::abs(work_J) + std::abs(cutting_J);
   cutting_J_ += cutting_J;
-
-  signals_.velocity_m_per_s = state_.velocity_m_per_s;
-  signals_.torque_Nm = drive.torque_Nm;
-  const double power_W = (electrical_loss_J(taken, tick_s) + work_J) / tick_s;
-  signals_.power_W = chain_ ? chain_->power_W({power_W, drive.torque_Nm, tick_s}) : power_W;
-  effect_power_J_ += (signals_.power_W - power_W) * tick_s;
-  signals_.metered_power_W = power_meter_.update(signals_.power_W, tick_s);
-  sense();
-  return signals_;
+  return (electrical_loss_J(taken, tick_s) + work_J) / tick_s;
 }
 
-/// What encoder and scale show.
-void FeedAxis::sense() noexcept {
-  SensedTravel travel{state_.position_m, table_position_m()};
-  if (chain_) chain_->sense(travel);
-  std::int64_t counts = true_encoder_.counts(travel.shaft_m);
-  if (chain_) counts = chain_->counts(counts);
+/// What moves and what the encoder and the power meter show of it.
+inline void FeedAxis::show(const SensedTravel& travel, std::int64_t counts) noexcept {
   signals_.index_passed = encoder_.index_between(signals_.encoder_counts, counts);
   signals_.encoder_counts = counts;
   signals_.position_m = state_.position_m;
   signals_.scale_position_m = travel.scale_m;
-  if (chain_) chain_->show(signals_);
+  signals_.velocity_m_per_s = state_.velocity_m_per_s;
+}
+
+const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noexcept FEEDTWIN_REALTIME {
+  const Drive drive = accept(command);
+  clipped_inputs_ += (drive.torque_Nm != command.torque_Nm) + (drive.cutting_force_N != command.cutting_force_N);
+  if (chain_) return step_with_effects(drive, tick_s);
+
+  NoEffects<double> none;
+  const double motor_force_N = drive.torque_Nm * model_.transmission_rad_per_m;
+  const double before_m = state_.position_m;
+  const AxisLosses<double> taken =
+      integrate_tick<double>(model_, state_, none, motor_force_N - drive.cutting_force_N, tick_s, resolution_);
+  const double travel_m = state_.position_m - before_m;
+  signals_.torque_Nm = drive.torque_Nm;
+  signals_.power_W = account(taken, motor_force_N * travel_m, drive.cutting_force_N * travel_m, tick_s);
+  signals_.metered_power_W = power_meter_.update(signals_.power_W, tick_s);
+  show({state_.position_m, state_.position_m}, true_encoder_.counts(state_.position_m));
+  return signals_;
+}
+
+/// Out of line, so that an axis without effects keeps its registers.
+[[gnu::noinline]] const AxisSignals& FeedAxis::step_with_effects(const Drive& drive, double tick_s) noexcept {
+  tick_s_ = tick_s;
+  EffectChain& chain = *chain_;
+  if (chain.remembers_forces()) chain.take_forces(true_forces(drive));
+  const double rippled_J = chain.motor_torque_J();
+  const double torque_Nm = chain.start_tick(drive.torque_Nm, drive.cutting_force_N, tick_start(tick_s, tick_s));
+  const double motor_force_N = torque_Nm * model_.transmission_rad_per_m;
+  const double before_m = state_.position_m;
+  const double table_before_m = table_position_m();
+  const double on_screw_N = chain.has_table() ? 0.0 : drive.cutting_force_N;
+  const double guide_J = chain.guide_J();
+  const double stop_J = chain.stop_J();
+  auto taken = integrate_tick<double>(driven_, state_, chain, motor_force_N - on_screw_N, tick_s, resolution_);
+  taken.guide_J += chain.guide_J() - guide_J;
+  taken.stop_J += chain.stop_J() - stop_J;
+
+  const double work_J = motor_force_N * (state_.position_m - before_m) - (chain.motor_torque_J() - rippled_J);
+  const double cutting_J = drive.cutting_force_N * (table_position_m() - table_before_m);
+  const double power_W = account(taken, work_J, cutting_J, tick_s);
+  signals_.torque_Nm = torque_Nm;
+  signals_.power_W = chain.power_W({power_W, torque_Nm, tick_s});
+  effect_power_J_ += (signals_.power_W - power_W) * tick_s;
+  signals_.metered_power_W = power_meter_.update(signals_.power_W, tick_s);
+  show_with_effects();
+  return signals_;
+}
+
+void FeedAxis::show_with_effects() noexcept {
+  SensedTravel travel{state_.position_m, table_position_m()};
+  chain_->sense(travel);
+  show(travel, chain_->counts(true_encoder_.counts(travel.shaft_m)));
+  chain_->show(signals_);
 }
 
 ForceSignals FeedAxis::force_sensors(const AxisCommand& acting) const noexcept FEEDTWIN_REALTIME {

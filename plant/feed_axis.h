@@ -56,9 +56,10 @@ class FeedAxis {
   };
   [[nodiscard]] Drive accept(const AxisCommand& command) const noexcept;
   [[nodiscard]] TickStart tick_start(double tick_s, double span_s) const noexcept;
-  [[nodiscard]] Drive deliver(const Drive& drive, double tick_s) noexcept;
-  [[nodiscard]] AxisLosses<double> integrate(const Drive& drive, double tick_s) noexcept;
-  void sense() noexcept;
+  const AxisSignals& step_with_effects(const Drive& drive, double tick_s) noexcept;
+  double account(const AxisLosses<double>& taken, double work_J, double cutting_J, double tick_s) noexcept;
+  void show(const SensedTravel& travel, std::int64_t counts) noexcept;
+  void show_with_effects() noexcept;
   [[nodiscard]] ForceSignals true_forces(const Drive& drive) const noexcept;
   [[nodiscard]] double electrical_loss_J(const AxisLosses<double>& losses, double duration_s) const noexcept;
 

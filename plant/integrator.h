@@ -261,8 +261,7 @@ inline AxisLosses<Real> integrate_tick(const AxisModel<Real>& model, AxisState<R
   Real left_s = Real{} + tick_s;
   for (int i = 0; i < most && any(left_s > 0.0); ++i) {
     const MaskOf<Real> ended = !(left_s > 0.0);
-    // a rest shorter than half a sub-step, as a reversal leaves it, goes with the last one
-    const Real h_s = ended ? nominal_s : (left_s < 1.5 * nominal_s ? left_s : nominal_s);
+    const Real h_s = ended ? nominal_s : smaller<Real>(nominal_s, left_s);
     left_s -= detail::substep<Real>(model, state, taken, effects, h_s, ended);
     left_s = left_s > rounding_s ? left_s : Real{};
   }

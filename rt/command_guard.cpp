@@ -16,7 +16,7 @@ bool CommandGuard::take(const io::AxisRequest& request, io::AxisRequest& before,
   if (any_request_) {
     // distance on the ring of sequence numbers: 0 repeated, negative older, above 1 some were lost
     const auto ahead = static_cast<std::int32_t>(request.sequence - in_force_.sequence);
-    if (ahead == 0) ++counters_.repeated;
+    if (ahead == 0 && request.counted) ++counters_.repeated;
     if (ahead < 0 && ahead > -restart_distance) {
       ++counters_.reordered;
       return false;

@@ -71,6 +71,7 @@ void PlantLoop::serve_axis(std::size_t i, bool fresh, std::int64_t now_ns) noexc
   plant::FeedAxis& axis = axes_[i];
   const CommandGuard::Decision decision = guards_[i].decide(requests_[i], fresh, now_ns);
   if (fresh && decision.age_ns >= 0) stats_->input_age.record(decision.age_ns);
+  if (fresh && requests_[i].reply_ns >= 0) stats_->reply.record(requests_[i].reply_ns);
   if (decision.event) note(*decision.event, static_cast<std::int32_t>(i), decision.event_value);
 
   const plant::AxisCommand command{.torque_Nm = decision.torque_Nm};

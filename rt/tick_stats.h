@@ -17,6 +17,7 @@ struct TickStats {
   LatencyHistogram wakeup;     ///< from the grid point to the tick's begin, where the loop slept (as cyclictest counts)
   LatencyHistogram work;       ///< from the tick's begin to its end
   LatencyHistogram input_age;  ///< from a request's arrival to its first use
+  LatencyHistogram reply;      ///< from the controller's trigger (SYNC) to the reply's leaving, where the port measures it
 };
 
 }  // namespace feedtwin::rt

@@ -80,6 +80,7 @@ void RegisterBank::post(std::size_t axis, std::int64_t arrival_ns) noexcept {
   // should it be taken after all in this moment, the change is told twice, which is once
   if (exchange_.requests().waiting()) request = replacing(image_.request[axis], request);
   request.sequence = sequence_[axis];
+  request.counted = registers[holding::sequence] != 0;
   request.arrival_ns = arrival_ns;
   image_.request[axis] = request;
   ++image_.number[axis];

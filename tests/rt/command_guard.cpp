@@ -103,6 +103,14 @@ TEST_F(Guarded, SequencesAreCounted) {
   EXPECT_EQ(guard.counters().reordered, 1U);
 }
 
+TEST_F(Guarded, AControllerThatDoesNotCountRepeatsNothing) {
+  AxisRequest r = request(0.1, 0, 0);
+  r.counted = false;
+  give(r, 0);
+  EXPECT_EQ(give(r, 1 * ms).torque_Nm, 0.1);
+  EXPECT_EQ(guard.counters().repeated, 0U);
+}
+
 TEST_F(Guarded, WhatANewerOneReplacedIsNotLost) {
   give(request(0.1, 1, 0), 0);
   AxisRequest r = request(0.1, 6, 0);

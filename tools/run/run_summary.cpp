@@ -87,7 +87,9 @@ nlohmann::json to_json(const RunSummary& summary) {
   out["wakeup_us"] = to_json(stats.wakeup);
   out["tick_us"] = to_json(stats.work);
   out["input_age_us"] = to_json(stats.input_age);
+  if (stats.reply.total() > 0) out["reply_us"] = to_json(stats.reply);
   out["histograms"] = {{"wakeup", bins(stats.wakeup)}, {"tick", bins(stats.work)}, {"input_age", bins(stats.input_age)}};
+  if (stats.reply.total() > 0) out["histograms"]["reply"] = bins(stats.reply);
   out["energy_J"] = to_json(total);
   out["energy_balance_error"] = total.balance_error();
   out["input_work_J"] = total.input_work_J;
@@ -117,6 +119,7 @@ void print(const RunSummary& summary) {
   print_row("wake-up", stats.wakeup);
   print_row("tick", stats.work);
   print_row("input age", stats.input_age);
+  if (stats.reply.total() > 0) print_row("reply", stats.reply);
   print_energy(summary);
   fmt::print("\nVerdict: {}\n", rt::name(summary.verdict.verdict));
   for (const auto& reason : summary.verdict.reasons) fmt::print("  - {}\n", reason);
