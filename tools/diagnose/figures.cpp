@@ -99,7 +99,7 @@ Energy energy(const InverseModel& model, const Candidate& at) {
     sum["ball_screw"] += work(base.screw_N, extra.screw_N);
     sum["guide"] += work(base.guide_N, extra.guide_N);
     const double input_J = track.sample_s * (base.power_W.sum() + (extra.power_W.size() > 0 ? extra.power_W.sum() : 0.0));
-    sum["motor_electrical"] += input_J - track.sample_s * track.held_N.dot(track.velocity_m_per_s);
+    sum["motor_electrical"] += input_J - track.sample_s * track.held_N.dot(track.centred_m_per_s);
   }
   return sum;
 }

@@ -30,6 +30,7 @@ struct View {
 /// What an effect adds at every sample. An empty vector stands for zeros (ones for the factors).
 struct Contribution {
   Vector drive_N;                          ///< torque of the motor beyond its command
+  Vector drive_step_N;                     ///< torque at the sample's instant beyond its mean, less the command's
   Vector motor_N, screw_N, guide_N;        ///< more resistance in a component
   Vector torque_sensor_N, force_sensor_N;  ///< a sensor's reading beyond the truth
   Vector slip_m;                           ///< linear scale less motor encoder
@@ -71,6 +72,7 @@ struct Hypothesis {
   bool (*admissible)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
   std::string_view sentence;         ///< what it is, in an engineer's words; {name} stands for a value with its interval
   bool number_of_the_model = false;  ///< payload, gravity: a wrong number rather than missing physics
+  bool absorbed = false;             ///< the nominal numbers can take most of it: only what they may not be tells it
   std::vector<std::string_view> confused_with;
 
   bool friction = false;  ///< sets the factors, so that friction must be followed again

@@ -192,8 +192,10 @@ Baseline InverseModel::baseline(const plant::AxisParameters& axis, const Contact
     viscous[k] = (forward ? axis.ball_screw.viscous_Ns_per_m.pos : axis.ball_screw.viscous_Ns_per_m.neg) * v;
     const auto& linear = electrical.electrical_linear_Ws_per_m;
     const auto& quadratic = electrical.electrical_quadratic_Ws2_per_m2;
-    power[k] = electrical.electrical_idle_W + (forward ? linear.pos : linear.neg) * std::abs(v) +
-               (forward ? quadratic.pos : quadratic.neg) * v * v + track.held_N[k] * v;
+    const double now = track.centred_m_per_s[k];  // power is that of the instant, under the command that sets in
+    const bool on = now > 0.0;
+    power[k] = electrical.electrical_idle_W + (on ? linear.pos : linear.neg) * std::abs(now) +
+               (on ? quadratic.pos : quadratic.neg) * now * now + track.held_N[k] * now;
   }
   base.motor_N = about_sample(motor);
   base.screw_viscous_N = about_sample(viscous);
@@ -218,7 +220,7 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   if (equation.power) {
     Vector model = base.power_W;
     if (extra.power_W.size() > 0) model += extra.power_W;
-    if (extra.drive_N.size() > 0) model += extra.drive_N.cwiseProduct(track.velocity_m_per_s);
+    if (extra.drive_N.size() > 0) model += extra.drive_N.cwiseProduct(track.centred_m_per_s);
     return model;
   }
   Vector r = recorded_side(equation, run);
@@ -230,9 +232,10 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   const double motor_kg = axis.motor.inertia_kgm2 * k * k, screw_kg = axis.ball_screw_inertia_kgm2 * k * k;
   const double table_kg = axis.guide_mass_kg + extra.table_mass_kg;
   const double per_mass = 1.0 / (motor_kg + screw_kg + table_kg);
-  if (equation.motor != equation.screw)
-    r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * track.half_step_N;
-  if (equation.screw != equation.guide) r += (equation.screw ? 1.0 : -1.0) * table_kg * per_mass * track.half_step_N;
+  Vector step_N = track.half_step_N;
+  if (extra.drive_step_N.size() > 0 && step_N.size() > 0) step_N += extra.drive_step_N;
+  if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * step_N;
+  if (equation.screw != equation.guide) r += (equation.screw ? 1.0 : -1.0) * table_kg * per_mass * step_N;
   double mass = 0.0, nominal_mass = 0.0;
   if (equation.screw) {
     mass += screw_kg;
@@ -289,6 +292,9 @@ void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows
   const Eigen::Map<const Vector> weights(kernel.data(), taps);
   for (Index i = 0; i < segment.size; ++i)
     rows[segment.start + i] = weights.dot(raw.segment(margin + i * decimation - static_cast<Index>(taps / 2), taps));
+  if (!equations_[segment.equation].slip) return;
+  auto part = rows.segment(segment.start, segment.size);  // where either ruler has its zero tells nothing
+  part.array() -= part.mean();
 }
 
 InverseModel::Prepared InverseModel::prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,

@@ -108,10 +108,14 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
       column.head(model.rows()) = whitening.applied(model, fall_of(near)) / step;
       columns.col(static_cast<Index>(a)) = column;
     }
+    double touched = 0.0;
+    for (const auto& segment : model.segments())
+      if (segment.size > 0 && columns.middleRows(segment.start, segment.size).cwiseAbs().maxCoeff() > 0.0)
+        touched += left.segment(segment.start, segment.size).squaredNorm();
     const Vector before = columns.colwise().norm();
     columns -= q * (q.transpose() * columns);
     const Vector after = columns.colwise().norm();
-    found[t] = {&hypothesis, at, 0.0, 0.0};
+    found[t] = {&hypothesis, at, touched, 0.0, 0.0};
     gains.row(static_cast<Index>(t)).setZero();
     Eigen::MatrixXd basis = columns;
     Index kept = 0;
@@ -125,9 +129,10 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
     const auto used = basis.leftCols(kept);
     found[t].gain = (used.transpose() * left).squaredNorm();
     Eigen::MatrixXd by_block(kept, static_cast<Index>(blocks.size()));
+    const Vector rest = left - used * (used.transpose() * left);  // without what it explains, should it be real
     for (std::size_t b = 0; b < blocks.size(); ++b)
       by_block.col(static_cast<Index>(b)) =
-          used.middleRows(blocks[b].start, blocks[b].size).transpose() * left.segment(blocks[b].start, blocks[b].size);
+          used.middleRows(blocks[b].start, blocks[b].size).transpose() * rest.segment(blocks[b].start, blocks[b].size);
     gains.row(static_cast<Index>(t)) = (by_block * signs).colwise().squaredNorm();
     const Vector amplitude = columns.colPivHouseholderQr().solve(left);
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {

@@ -12,6 +12,7 @@ namespace feedtwin::tools::diagnosis {
 struct Score {
   const Hypothesis* hypothesis = nullptr;
   std::vector<double> q;  ///< best shape with its linear amplitudes
+  double touched = 0.0;   ///< cost in the equations that it has a part in
   double gain = 0.0;      ///< fall of the cost
   double standard = 0.0;  ///< gain less its mean on surrogates, in their standard deviations
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -19,18 +21,21 @@ bool possible(const Active& active, const plant::AxisParameters& axis) {
 
 struct Step {
   Fit fit;
-  double gain = -1.0, surprise = 0.0, p = 1.0;
+  double gain = -1.0, surprise = 0.0, p = 1.0, touched = 0.0;
 };
 
 /// The best of the hypotheses that pass the bar, refitted jointly.
 Step best_step(const Fitter& fitter, const Fit& now, const Whitening& whitening, const Screen& screened, const Bar& bar) {
   Step best;
+  const double left_N = std::max(1e-9, whitening.residual_rms(0));
   std::size_t tried = 0;
   for (const auto& score : screened.scores) {
     const double p = screened.p_false_alarm(score.standard);
+    const bool force = score.hypothesis->channel != "power_W" && score.hypothesis->channel != "scale_position_m";
+    const double smallness = force ? std::pow(std::max(1.0, bar.smallest_residual_N / left_N), 2) : 1.0;
+    const double needed = (score.hypothesis->absorbed ? bar.share_if_absorbed : bar.share) * score.touched * smallness;
     const double most_surprise = prior_part(now);
-    if (score.gain < bar.share * now.cost && (most_surprise < bar.nominal_surprise || score.gain < bar.nominal_surprise))
-      continue;
+    if (score.gain < needed && (most_surprise < bar.nominal_surprise || score.gain < bar.nominal_surprise)) continue;
     if (p > bar.p_false_alarm) continue;
     if (++tried > refitted) break;
     Candidate start = now.model;
@@ -38,10 +43,22 @@ Step best_step(const Fitter& fitter, const Fit& now, const Whitening& whitening,
     Fit fit = fitter.fit(start, whitening, iterations);
     if (!possible(fit.model.effects.back(), fit.model.axis)) continue;
     const double gain = now.cost - fit.cost, surprise = prior_part(now) - prior_part(fit);
-    if (gain < bar.share * now.cost && surprise < bar.nominal_surprise) continue;
-    if (gain > best.gain) best = {std::move(fit), gain, surprise, p};
+    if (gain < needed && surprise < bar.nominal_surprise) continue;
+    if (gain > best.gain) best = {std::move(fit), gain, surprise, p, score.touched};
   }
   return best;
+}
+
+/// Cost in the equations that an effect of the model has a part in.
+double touched_cost(const Fitter& fitter, const Fit& fit, std::size_t effect) {
+  Index column = fit.base_count();
+  for (std::size_t e = 0; e < effect; ++e)
+    for (const auto& p : fit.model.effects[e].hypothesis->parameters) column += p.kind != Kind::fixed;
+  double cost = 0.0;
+  for (const auto& s : fitter.model().segments())
+    if (s.size > 0 && fit.jacobian.col(column).segment(s.start, s.size).cwiseAbs().maxCoeff() > 0.0)
+      cost += fit.white.segment(s.start, s.size).squaredNorm();
+  return cost;
 }
 
 Candidate without(const Candidate& model, std::size_t effect) {
@@ -64,6 +81,13 @@ SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<vo
   while (fit.model.effects.size() < bar.most_effects) {
     progress("asking " + std::to_string(hypotheses().size()) + " hypotheses about the residual");
     result.last = screen(fitter, fit, whitening);
+    if (std::getenv("FT_DBG"))
+      for (std::size_t i = 0; i < 7; ++i) {
+        auto& x = result.last.scores[i];
+        std::fprintf(stderr, "   %-24s gain %9.1f touched %9.1f std %7.1f p %.2g q0 %.4g\n",
+                     std::string(x.hypothesis->id).c_str(), x.gain, x.touched, x.standard,
+                     result.last.p_false_alarm(x.standard), x.q[0]);
+      }
     Step step = best_step(fitter, fit, whitening, result.last, bar);
     if (step.gain < 0.0) break;
     progress("adding " + std::string(step.fit.model.effects.back().hypothesis->id));
@@ -75,7 +99,8 @@ SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<vo
     progress("doing without " + std::string(fit.model.effects[i].hypothesis->id));
     const Fit less = fitter.fit(without(fit.model, i), whitening, iterations);
     const double gain = less.cost - fit.cost, surprise = prior_part(less) - prior_part(fit);
-    if ((gain < bar.lost_when_dropped * less.cost && surprise < bar.nominal_surprise) ||
+    const double touched = touched_cost(fitter, fit, i);
+    if ((gain < bar.lost_when_dropped * touched && surprise < bar.nominal_surprise) ||
         !possible(fit.model.effects[i], fit.model.axis)) {
       fit = fitter.fit_with_colour(less.model, whitening, 2, iterations);
       chances.erase(chances.begin() + static_cast<std::ptrdiff_t>(i));
@@ -83,11 +108,14 @@ SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<vo
       i = fit.model.effects.size();
       continue;
     }
-    Found found{fit.model.effects[i], gain, gain / less.cost, chances[i], {}};
+    Found found{fit.model.effects[i], gain, std::min(1.0, gain / (gain + touched)), chances[i], {}};
     const Screen others = screen(fitter, less, whitening);
     std::size_t tried = 0;
     for (const auto& score : others.scores) {
-      if (score.hypothesis == found.effect.hypothesis || score.gain < 0.8 * gain || ++tried > 3) continue;
+      if (score.hypothesis == found.effect.hypothesis || score.gain < 0.8 * gain) continue;
+      const auto beside = std::ranges::find(result.last.scores, score.hypothesis, &Score::hypothesis);
+      const bool something_else = beside != result.last.scores.end() && beside->gain > 0.3 * score.gain;
+      if (something_else || ++tried > 3) continue;
       Candidate start = less.model;
       start.effects.push_back(at_zero(score));
       const Fit rival = fitter.fit(start, whitening, iterations);

@@ -12,10 +12,12 @@ namespace feedtwin::tools::diagnosis {
 
 /// What a hypothesis must do to be named.
 struct Bar {
-  double p_false_alarm = 0.005;     ///< over all hypotheses together
-  double share = 0.04;              ///< of what the model before it leaves over, whitened
-  double nominal_surprise = 40.0;   ///< or: fall of the squared deviations of the nominal numbers, in tolerances
-  double lost_when_dropped = 0.03;  ///< share that must come back when it is taken out again
+  double p_false_alarm = 0.005;      ///< over all hypotheses together
+  double share = 0.04;               ///< of what the model before it leaves over, whitened
+  double smallest_residual_N = 0.5;  ///< where less is left over, as much is asked for as if it were this
+  double share_if_absorbed = 0.12;   ///< likewise for what the nominal numbers can nearly do
+  double nominal_surprise = 40.0;    ///< or: fall of the squared deviations of the nominal numbers, in tolerances
+  double lost_when_dropped = 0.03;   ///< share that must come back when it is taken out again
   std::size_t most_effects = 6;
 };
 

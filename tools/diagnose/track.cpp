@@ -86,7 +86,8 @@ void follow_reversals(Track& track) {
   }
 }
 
-/// A meter that holds its reading shows, from the end of a window on, the mean over that window.
+/// A meter that holds its reading shows, from the end of a window on, the mean over that window; a row's reading is of the
+/// end of the sample that follows it.
 MeterWindows meter_windows(const Vector& power_W, double sample_s) {
   std::vector<Index> changes;
   for (Index k = 1; k < power_W.size(); ++k)
@@ -107,7 +108,7 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s) {
   }
   const Index phase = changes.empty() ? 0 : changes.front() % meter.length;
   for (Index k = phase; k + meter.length < power_W.size(); k += meter.length) {
-    meter.starts.push_back(k);
+    meter.starts.push_back(k + 1);
     meter.power_W.push_back(power_W[k + meter.length]);
   }
   return meter;
@@ -158,7 +159,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
     track.torque_sensor_N = convolved(per_lead * as_vector(recording.at(channel::torque_sensor_Nm)), triangle);
   if (recording.has(channel::force_sensor_N))
     track.force_sensor_N = convolved(as_vector(recording.at(channel::force_sensor_N)), triangle);
-  track.half_step_N = convolved(track.held_N - track.command_N, triangle);
+  track.half_step_N = convolved(track.held_N, triangle) - track.command_N;
   if (recording.has(channel::power_W)) track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h);
   return track;
 }

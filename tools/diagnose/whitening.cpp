@@ -35,7 +35,7 @@ Whitening Whitening::estimate(const InverseModel& model, const Vector& residual)
     const double rms = std::sqrt(energy / static_cast<double>(std::max<std::size_t>(1, all.size())));
     const double limit = clip_at_sigmas * std::max(robust_sigma(all), 0.1 * rms) + 1e-300;
 
-    const Index p = model.equations()[e].power ? 2 : order;
+    const Index p = model.equations()[e].slip ? 0 : model.equations()[e].power ? 2 : order;  // grids are white
     Vector correlation = Vector::Zero(p + 1);
     double count = 0.0;
     for (const auto& s : model.segments()) {
@@ -50,7 +50,7 @@ Whitening Whitening::estimate(const InverseModel& model, const Vector& residual)
     Eigen::MatrixXd toeplitz(p, p);
     for (Index i = 0; i < p; ++i)
       for (Index j = 0; j < p; ++j) toeplitz(i, j) = correlation[std::abs(i - j)];
-    const Vector a = toeplitz.ldlt().solve(correlation.tail(p));
+    const Vector a = p > 0 ? Vector(toeplitz.ldlt().solve(correlation.tail(p))) : Vector();
     const double innovation = correlation[0] - a.dot(correlation.tail(p));
     made.coefficients_.push_back(a);
     made.sigma_.push_back(std::sqrt(std::max(innovation, 1e-6 * correlation[0])));

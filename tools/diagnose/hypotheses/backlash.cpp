@@ -11,10 +11,14 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
+  constexpr double pressing_N = 0.5;  // the force sensor then tells which flank bears
+  const bool felt = track.force_sensor_N.size() > 0;
   Vector slip(track.size);
   double table = track.position_m[0];
   for (Index k = 0; k < track.size; ++k) {
     table = std::clamp(table, track.position_m[k] - 0.5 * q[0], track.position_m[k] + 0.5 * q[0]);
+    if (felt && std::abs(track.force_sensor_N[k]) > pressing_N)
+      table = track.position_m[k] - std::copysign(0.5 * q[0], track.force_sensor_N[k]);
     slip[k] = table - track.position_m[k];
   }
   add(sum.slip_m, slip);
@@ -41,6 +45,7 @@ Hypothesis backlash() {
           .named = named,
           .admissible = possible,
           .sentence = "the table follows the motor with a play of {gap_m} m at every reversal",
+
           .confused_with = {"presliding_memory", "screw_compliance"},
           .friction = false};
 }

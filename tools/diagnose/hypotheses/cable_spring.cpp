@@ -34,6 +34,7 @@ Hypothesis cable_spring() {
       .named = named,
       .admissible = possible,
       .sentence = "a cable or bellows pulls with {stiffness_N_per_m} N/m towards {neutral_m} m, the same in both directions",
+
       .confused_with = {"position_friction", "gravity"},
       .friction = false};
 }

@@ -23,7 +23,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return std::max(q[0], q[1]) > 3e-4;
+  return std::max(q[0], q[1]) > 6e-4;
 }
 
 }  // namespace
@@ -42,6 +42,7 @@ Hypothesis channel_skew() {
       .admissible = possible,
       .sentence =
           "the sensors are late against the encoder: torque by {torque_sensor_delay_s} s, force by {force_sensor_delay_s} s",
+
       .confused_with = {"input_delay", "current_loop_lag"},
       .friction = false};
 }

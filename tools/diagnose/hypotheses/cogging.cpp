@@ -37,6 +37,7 @@ Hypothesis cogging() {
           .sentence =
               "the motor cogs: a torque of {amplitude_Nm} N m that repeats {cycles_per_rev} times a revolution whatever the "
               "current",
+
           .confused_with = {"torque_ripple", "rev_ripple", "encoder_eccentricity"},
           .friction = false};
 }

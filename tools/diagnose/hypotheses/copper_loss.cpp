@@ -34,6 +34,7 @@ Hypothesis copper_loss() {
           .named = named,
           .admissible = possible,
           .sentence = "the windings' i^2 R loss is missing: {coefficient_W_per_Nm2} W per N^2 m^2 of torque",
+
           .confused_with = {"regeneration_clipped"},
           .friction = false};
 }

@@ -12,14 +12,16 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const double tau = std::max(q[0], 1e-9), h = track.sample_s, keep = std::exp(-h / tau);
-  Vector torque(track.size);  // mean over each sample
+  Vector torque(track.size), instant(track.size);  // mean over each sample, at its start
   double at = track.held_N[0];
   for (Index k = 0; k < track.size; ++k) {
     const double command = track.held_N[k];
+    instant[k] = at;
     torque[k] = command + (at - command) * tau / h * (1.0 - keep);
     at = command + (at - command) * keep;
   }
   add(sum.drive_N, about_sample(torque) - track.command_N);
+  add(sum.drive_step_N, instant - about_sample(torque) - (track.held_N - track.command_N));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -43,6 +45,7 @@ Hypothesis current_loop_lag() {
           .named = named,
           .admissible = possible,
           .sentence = "the drive's current loop lags: first order, {time_constant_s} s",
+
           .confused_with = {"input_delay", "channel_skew", "frictional_lag"},
           .friction = false};
 }

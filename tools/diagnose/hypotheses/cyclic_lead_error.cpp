@@ -30,6 +30,7 @@ Hypothesis cyclic_lead_error() {
           .apply = apply,
           .named = named,
           .sentence = "the lead wavers by {amplitude_m} m, {cycles_per_rev} times a revolution",
+
           .confused_with = {"encoder_eccentricity"},
           .friction = false};
 }

@@ -32,6 +32,7 @@ Hypothesis direction_dependent_friction() {
       .sentence =
           "friction differs with the direction: forth {coulomb_difference_N} N and {viscous_difference_Ns_per_m} N s/m more "
           "than back",
+      .absorbed = true,
       .confused_with = {"torque_offset", "gravity"},
       .friction = false};
 }

@@ -41,6 +41,7 @@ Hypothesis dwell_breakaway() {
           .named = named,
           .admissible = possible,
           .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
+
           .confused_with = {"presliding_memory"},
           .friction = false};
 }

@@ -38,6 +38,7 @@ Hypothesis encoder_eccentricity() {
           .apply = apply,
           .named = named,
           .sentence = "the encoder runs out of true: it reads {amplitude_m} m too far once a revolution",
+
           .confused_with = {"cyclic_lead_error", "rev_ripple"},
           .friction = false};
 }

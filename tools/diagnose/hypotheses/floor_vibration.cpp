@@ -42,6 +42,7 @@ Hypothesis floor_vibration() {
           .apply = apply,
           .named = named,
           .sentence = "the floor shakes the table with {acceleration_m_per_s2} m/s^2 at {frequency_Hz} Hz",
+
           .confused_with = {"process_force"},
           .friction = false};
 }

@@ -37,6 +37,7 @@ Hypothesis friction_drift() {
           .named = named,
           .admissible = possible,
           .sentence = "friction drifts with time, by {relative_change} of itself within {time_constant_s} s",
+
           .confused_with = {"thermal_friction"},
           .friction = true};
 }

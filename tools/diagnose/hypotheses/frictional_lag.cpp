@@ -34,6 +34,7 @@ Hypothesis frictional_lag() {
           .named = named,
           .admissible = possible,
           .sentence = "friction follows speed with a lag of {time_constant_s} s",
+
           .confused_with = {"input_delay", "current_loop_lag"},
           .friction = false};
 }

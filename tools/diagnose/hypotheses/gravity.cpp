@@ -29,6 +29,7 @@ Hypothesis gravity() {
           .named = named,
           .sentence = "a constant {force_N} N acts on the table against positive motion",
           .number_of_the_model = true,
+          .absorbed = true,
           .confused_with = {"torque_offset", "cable_spring", "direction_dependent_friction"},
           .friction = false};
 }

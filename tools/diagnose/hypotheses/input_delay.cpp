@@ -9,7 +9,9 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.drive_N, about_sample(delayed(view.track.held_N, q[0] / view.track.sample_s)) - view.track.command_N);
+  const Vector late = delayed(view.track.held_N, q[0] / view.track.sample_s), about = about_sample(late);
+  add(sum.drive_N, about - view.track.command_N);
+  add(sum.drive_step_N, late - about - (view.track.held_N - view.track.command_N));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -33,6 +35,7 @@ Hypothesis input_delay() {
           .named = named,
           .admissible = possible,
           .sentence = "the command acts {delay_s} s late",
+
           .confused_with = {"current_loop_lag", "channel_skew", "frictional_lag"},
           .friction = false};
 }

@@ -33,6 +33,7 @@ Hypothesis lead_error() {
           .named = named,
           .admissible = possible,
           .sentence = "the lead is off by {relative_error} of itself",
+
           .confused_with = {"screw_growth"},
           .friction = false};
 }

@@ -34,6 +34,7 @@ Hypothesis load_dependent_friction() {
           .named = named,
           .admissible = possible,
           .sentence = "the screw's friction rises by {friction_per_load} N for each newton on the nut",
+
           .confused_with = {"torque_gain_error"},
           .friction = true};
 }

@@ -36,6 +36,7 @@ Hypothesis local_friction() {
           .named = named,
           .admissible = possible,
           .sentence = "a damaged spot at {centre_m} m, {half_width_m} m to either side, adds {height_N} N of friction",
+
           .confused_with = {"position_friction"},
           .friction = false};
 }

@@ -34,6 +34,7 @@ Hypothesis payload() {
           .admissible = possible,
           .sentence = "the table carries {mass_kg} kg more than the model says",
           .number_of_the_model = true,
+          .absorbed = true,
           .confused_with = {"current_loop_lag"},
           .friction = false};
 }

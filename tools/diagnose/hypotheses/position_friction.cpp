@@ -37,6 +37,7 @@ Hypothesis position_friction() {
           .sentence =
               "the screw's sliding friction grows along the stroke, by {relative_slope_per_half_stroke} of itself from the "
               "middle to the end",
+
           .confused_with = {"cable_spring", "local_friction"},
           .friction = true};
 }

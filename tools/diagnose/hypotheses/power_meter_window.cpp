@@ -33,6 +33,7 @@ Hypothesis power_meter_window() {
           .named = named,
           .admissible = possible,
           .sentence = "the power meter averages over {window_s} s",
+
           .confused_with = {"regeneration_clipped"},
           .friction = false};
 }

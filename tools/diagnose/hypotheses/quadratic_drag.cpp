@@ -34,6 +34,7 @@ Hypothesis quadratic_drag() {
           .named = named,
           .admissible = possible,
           .sentence = "a drag grows with the square of speed: {coefficient_Ns2_per_m2} N s^2/m^2",
+
           .confused_with = {"sublinear_viscous"},
           .friction = false};
 }

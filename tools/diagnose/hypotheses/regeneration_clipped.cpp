@@ -33,6 +33,7 @@ Hypothesis regeneration_clipped() {
           .named = named,
           .admissible = possible,
           .sentence = "power given back is not seen: {share} of it is clipped",
+
           .confused_with = {"copper_loss"},
           .friction = false};
 }

@@ -30,6 +30,7 @@ Hypothesis rev_ripple() {
           .apply = apply,
           .named = named,
           .sentence = "the screw runs unevenly: {amplitude_N} N, {cycles_per_rev} times a revolution",
+
           .confused_with = {"cogging", "torque_ripple", "encoder_eccentricity"},
           .friction = false};
 }

@@ -38,6 +38,7 @@ Hypothesis screw_compliance() {
           .named = named,
           .admissible = possible,
           .sentence = "screw, nut and bearing yield: {stiffness_N_per_m} N/m between motor and table",
+
           .confused_with = {"backlash", "lead_error"},
           .friction = false};
 }

@@ -34,6 +34,7 @@ Hypothesis screw_growth() {
           .named = named,
           .admissible = possible,
           .sentence = "the screw grows as it warms, by {relative_growth} of its length after a long time",
+
           .confused_with = {"lead_error"},
           .friction = false};
 }

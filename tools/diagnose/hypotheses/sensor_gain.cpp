@@ -43,6 +43,7 @@ Hypothesis sensor_gain() {
           .sentence =
               "a sensor's gain is off: the torque sensor shows {torque_sensor_gain}, the force sensor {force_sensor_gain} "
               "of the truth",
+          .absorbed = true,
           .confused_with = {"torque_gain_error"},
           .friction = false};
 }

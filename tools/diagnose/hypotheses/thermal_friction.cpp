@@ -48,6 +48,7 @@ Hypothesis thermal_friction() {
           .sentence =
               "the screw warms up: its viscous friction falls by {viscous_reduction} of itself within {energy_scale_J} J of "
               "work",
+
           .confused_with = {"friction_drift"},
           .friction = true};
 }

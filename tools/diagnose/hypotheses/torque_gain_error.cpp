@@ -33,6 +33,7 @@ Hypothesis torque_gain_error() {
           .named = named,
           .admissible = possible,
           .sentence = "the motor gives {relative_error} of its commanded torque more than it says",
+          .absorbed = true,
           .confused_with = {"sensor_gain"},
           .friction = false};
 }

@@ -28,6 +28,7 @@ Hypothesis torque_offset() {
           .apply = apply,
           .named = named,
           .sentence = "the drive adds a constant {offset_Nm} N m",
+          .absorbed = true,
           .confused_with = {"gravity", "direction_dependent_friction"},
           .friction = false};
 }

@@ -35,6 +35,7 @@ Hypothesis torque_ripple() {
           .named = named,
           .admissible = possible,
           .sentence = "the torque ripples with the current: {relative_amplitude} of it, {cycles_per_rev} times a revolution",
+
           .confused_with = {"cogging", "rev_ripple"},
           .friction = false};
 }

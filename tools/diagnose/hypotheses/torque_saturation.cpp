@@ -34,6 +34,7 @@ Hypothesis torque_saturation() {
           .named = named,
           .admissible = possible,
           .sentence = "the drive gives no more than {limit_Nm} N m",
+
           .confused_with = {"torque_gain_error"},
           .friction = false};
 }
