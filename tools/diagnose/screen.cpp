@@ -1,5 +1,6 @@
 #include "tools/diagnose/screen.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr Index surrogates = 199;
-constexpr Index block_rows = 50;  // 0.2 s: longer than a reversal's burst
+constexpr std::size_t most_by_chance = 24;  ///< grid points of a hypothesis that surrogates are tried on
+constexpr Index block_rows = 50;            // 0.2 s: longer than a reversal's burst
 
 /// Stretches of rows whose sign a surrogate draws at random: their strength stays, their relation to any regressor goes.
 std::vector<Segment> blocks_of(const InverseModel& model) {
@@ -36,6 +38,7 @@ Eigen::MatrixXd random_signs(std::size_t blocks) {
 struct Task {
   const Hypothesis* hypothesis;
   const std::vector<double>* shape;
+  bool by_chance;  ///< its gains on surrogates are asked for too
 };
 
 std::vector<double> with_shape(const Hypothesis& hypothesis, const std::vector<double>& shape) {
@@ -89,7 +92,9 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
     const bool present =
         std::ranges::any_of(fit.model.effects, [&](const Active& a) { return a.hypothesis == &hypothesis; });
     if (present) continue;
-    for (const auto& shape : hypothesis.shapes) tasks.push_back({&hypothesis, &shape});
+    const std::size_t every = 1 + hypothesis.shapes.size() / most_by_chance;
+    for (std::size_t i = 0; i < hypothesis.shapes.size(); ++i)
+      tasks.push_back({&hypothesis, &hypothesis.shapes[i], i % every == 0});
   }
   std::vector<Score> found(tasks.size());
   Eigen::MatrixXd gains(static_cast<Index>(tasks.size()), surrogates);
@@ -99,42 +104,50 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
     std::vector<std::size_t> amplitudes;
     for (std::size_t i = 0; i < at.size(); ++i)
       if (hypothesis.parameters[i].kind == Kind::amplitude) amplitudes.push_back(i);
-    Eigen::MatrixXd columns(rows, static_cast<Index>(amplitudes.size()));
+    const auto count = static_cast<Index>(amplitudes.size());
+    Eigen::MatrixXd columns(model.rows(), count);
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {
       Active near{&hypothesis, at};
       const double step = hypothesis.parameters[amplitudes[a]].step;
       near.q[amplitudes[a]] = step;
-      Vector column = Vector::Zero(rows);
-      column.head(model.rows()) = whitening.applied(model, fall_of(near)) / step;
-      columns.col(static_cast<Index>(a)) = column;
+      columns.col(static_cast<Index>(a)) = fall_of(near) / step;
     }
+    whitening.apply(model, columns);
+    // only the rows of the equations that it touches count; what the model's own numbers can do comes off
+    std::vector<bool> in(model.segments().size());
     double touched = 0.0;
-    for (const auto& segment : model.segments())
-      if (segment.size > 0 && columns.middleRows(segment.start, segment.size).cwiseAbs().maxCoeff() > 0.0)
-        touched += left.segment(segment.start, segment.size).squaredNorm();
-    const Vector before = columns.colwise().norm();
-    columns -= q * (q.transpose() * columns);
-    const Vector after = columns.colwise().norm();
+    Eigen::MatrixXd on_q = Eigen::MatrixXd::Zero(q.cols(), count);
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const auto& s = model.segments()[i];
+      in[i] = s.size > 0 && columns.middleRows(s.start, s.size).cwiseAbs().maxCoeff() > 0.0;
+      if (!in[i]) continue;
+      touched += left.segment(s.start, s.size).squaredNorm();
+      on_q.noalias() += q.middleRows(s.start, s.size).transpose() * columns.middleRows(s.start, s.size);
+    }
     found[t] = {&hypothesis, at, touched, 0.0, 0.0};
     gains.row(static_cast<Index>(t)).setZero();
-    Eigen::MatrixXd basis = columns;
-    Index kept = 0;
-    for (Index c = 0; c < columns.cols(); ++c) {
-      Vector v = columns.col(c);
-      for (Index j = 0; j < kept; ++j) v -= basis.col(j).dot(v) * basis.col(j);
-      if (!(v.norm() > 1e-3 * before[c]) || !(before[c] > 0.0)) continue;  // nothing the model's own numbers could not do
-      basis.col(kept++) = v.normalized();
+    const Vector before = columns.colwise().squaredNorm();
+    if (!(before.maxCoeff() > 0.0)) return;
+    Eigen::MatrixXd gram = columns.transpose() * columns - on_q.transpose() * on_q;
+    for (Index c = 0; c < count; ++c)
+      if (!(gram(c, c) > 1e-6 * before[c])) gram(c, c) += 1e6 * (before[c] + 1e-30);  // nothing the model could not do
+    const Eigen::LDLT<Eigen::MatrixXd> solver(gram);
+    const Vector amplitude = solver.solve(columns.transpose() * left.head(model.rows()));
+    found[t].gain = amplitude.dot(columns.transpose() * left.head(model.rows()));
+    if (tasks[t].by_chance) {
+      const Vector cut = on_q * amplitude;
+      Eigen::MatrixXd by_block(count, static_cast<Index>(blocks.size()));
+      for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const auto& s = blocks[b];
+        const auto part = columns.middleRows(s.start, s.size);
+        const auto own = q.middleRows(s.start, s.size);
+        // without what it explains, should it be real
+        const Vector rest = left.segment(s.start, s.size) - part * amplitude + own * cut;
+        by_block.col(static_cast<Index>(b)) = part.transpose() * rest - on_q.transpose() * (own.transpose() * rest);
+      }
+      const Eigen::MatrixXd drawn = by_block * signs;
+      gains.row(static_cast<Index>(t)) = drawn.cwiseProduct(solver.solve(drawn)).colwise().sum();
     }
-    if (kept == 0) return;
-    const auto used = basis.leftCols(kept);
-    found[t].gain = (used.transpose() * left).squaredNorm();
-    Eigen::MatrixXd by_block(kept, static_cast<Index>(blocks.size()));
-    const Vector rest = left - used * (used.transpose() * left);  // without what it explains, should it be real
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      by_block.col(static_cast<Index>(b)) =
-          used.middleRows(blocks[b].start, blocks[b].size).transpose() * rest.segment(blocks[b].start, blocks[b].size);
-    gains.row(static_cast<Index>(t)) = (by_block * signs).colwise().squaredNorm();
-    const Vector amplitude = columns.colPivHouseholderQr().solve(left);
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {
       double& value = found[t].q[amplitudes[a]];
       value = amplitude[static_cast<Index>(a)];

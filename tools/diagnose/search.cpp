@@ -1,15 +1,15 @@
 #include "tools/diagnose/search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr int rounds = 3, iterations = 6;
-constexpr std::size_t refitted = 4;
+constexpr std::size_t refitted = 3;
 
 double prior_part(const Fit& fit) {
   return fit.white.tail(fit.base_count()).squaredNorm();
@@ -61,6 +61,17 @@ double touched_cost(const Fitter& fitter, const Fit& fit, std::size_t effect) {
   return cost;
 }
 
+/// "cogging would explain 86 % (p 1e-06), ..." for whoever waits.
+std::string best_of(const Screen& screened) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, screened.scores.size()); ++i) {
+    const auto& score = screened.scores[i];
+    text += fmt::format("{}{} would explain {:.1f} % (p {:.1g})", i > 0 ? ", " : "", score.hypothesis->id,
+                        100.0 * score.gain / std::max(1.0, score.touched), std::max(1e-9, screened.p_false_alarm(score.standard)));
+  }
+  return text;
+}
+
 Candidate without(const Candidate& model, std::size_t effect) {
   Candidate less = model;
   less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(effect));
@@ -78,20 +89,16 @@ SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<vo
   result.recalibrated = fit;
 
   std::vector<double> chances;
+  std::vector<std::vector<Score>> earlier;  // what else was in question when each was added
   while (fit.model.effects.size() < bar.most_effects) {
     progress("asking " + std::to_string(hypotheses().size()) + " hypotheses about the residual");
     result.last = screen(fitter, fit, whitening);
-    if (std::getenv("FT_DBG"))
-      for (std::size_t i = 0; i < 7; ++i) {
-        auto& x = result.last.scores[i];
-        std::fprintf(stderr, "   %-24s gain %9.1f touched %9.1f std %7.1f p %.2g q0 %.4g\n",
-                     std::string(x.hypothesis->id).c_str(), x.gain, x.touched, x.standard,
-                     result.last.p_false_alarm(x.standard), x.q[0]);
-      }
+    progress(best_of(result.last));
     Step step = best_step(fitter, fit, whitening, result.last, bar);
     if (step.gain < 0.0) break;
     progress("adding " + std::string(step.fit.model.effects.back().hypothesis->id));
     chances.push_back(step.p);
+    earlier.push_back(result.last.scores);
     fit = fitter.fit_with_colour(step.fit.model, whitening, 2, iterations);
   }
 
@@ -104,15 +111,18 @@ SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<vo
         !possible(fit.model.effects[i], fit.model.axis)) {
       fit = fitter.fit_with_colour(less.model, whitening, 2, iterations);
       chances.erase(chances.begin() + static_cast<std::ptrdiff_t>(i));
+      earlier.erase(earlier.begin() + static_cast<std::ptrdiff_t>(i));
       result.found.clear();
       i = fit.model.effects.size();
       continue;
     }
     Found found{fit.model.effects[i], gain, std::min(1.0, gain / (gain + touched)), chances[i], {}};
-    const Screen others = screen(fitter, less, whitening);
     std::size_t tried = 0;
-    for (const auto& score : others.scores) {
-      if (score.hypothesis == found.effect.hypothesis || score.gain < 0.8 * gain) continue;
+    double own = 0.0;
+    for (const auto& score : earlier[i])
+      if (score.hypothesis == found.effect.hypothesis) own = score.gain;
+    for (const auto& score : earlier[i]) {
+      if (score.hypothesis == found.effect.hypothesis || score.gain < 0.8 * own) continue;
       const auto beside = std::ranges::find(result.last.scores, score.hypothesis, &Score::hypothesis);
       const bool something_else = beside != result.last.scores.end() && beside->gain > 0.3 * score.gain;
       if (something_else || ++tried > 3) continue;

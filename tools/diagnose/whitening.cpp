@@ -65,6 +65,7 @@ void Whitening::apply(const InverseModel& model, Eigen::Ref<Eigen::MatrixXd> col
     const double per_sigma = 1.0 / sigma_[s.equation];
     for (Index c = 0; c < columns.cols(); ++c) {
       auto part = columns.col(c).segment(s.start, s.size);
+      if (s.size == 0 || part.cwiseAbs().maxCoeff() == 0.0) continue;
       for (Index k = s.size - 1; k >= 0; --k) {
         double value = part[k];
         for (Index j = 1; j <= a.size() && j <= k; ++j) value -= a[j - 1] * part[k - j];

@@ -1,0 +1,129 @@
+// Small cases made by the plant itself: what is missing from the nominal model is named, what is not missing never.
+
+#include "tools/diagnose/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "plant/effects/registry.h"
+#include "plant/feed_axis.h"
+#include "tests/support/made_case.h"
+#include "tools/config/axis_file.h"
+#include "tools/diagnose/diagnosis_json.h"
+
+namespace feedtwin {
+namespace {
+
+using tools::diagnosis::Diagnosis;
+
+plant::EffectSetting setting(std::string_view id, std::initializer_list<std::pair<std::string_view, double>> values) {
+  const auto* entry = plant::find_effect(id);
+  auto made = plant::preset_of(*entry);
+  for (const auto& [name, value] : values) *plant::value_in(made, *entry, name) = value;
+  return made;
+}
+
+/// Two short runs to learn from and one to prove it on, without sensors beside the encoder.
+tools::Case made_case(const plant::AxisParameters& truth, const plant::AxisParameters& nominal) {
+  tools::Case data;
+  data.axis = nominal;
+  const auto run = [&truth](const char* motion, double speed, double amplitude, unsigned seed) {
+    tests::MadeRun made{.motion = motion, .duration_s = 3.0, .sensors = false, .seed = seed};
+    made.settings.speed_m_per_s = speed;
+    made.settings.amplitude_m = amplitude;
+    return tests::make_recording(truth, made);
+  };
+  data.fit = {run("sine", 0.08, 0.02, 1), run("s_curve", 0.05, 0.015, 2)};
+  data.holdout = {run("triangle", 0.03, 0.012, 3)};
+  return data;
+}
+
+plant::AxisParameters off_by_some_percent() {
+  auto nominal = plant::source_axis();
+  nominal.motor.inertia_kgm2 *= 1.05;
+  nominal.ball_screw.coulomb_N.pos *= 0.94;
+  nominal.ball_screw.viscous_Ns_per_m.neg *= 1.07;
+  nominal.motor.coulomb_N.neg *= 0.95;
+  return nominal;
+}
+
+Diagnosis diagnosed(const plant::AxisParameters& truth) {
+  return tools::diagnosis::diagnose(made_case(truth, off_by_some_percent()), [](std::string_view) {});
+}
+
+std::string ids_of(const Diagnosis& found) {
+  std::string ids;
+  for (const auto& effect : found.effects) ids += std::string(effect.hypothesis->id) + " ";
+  return ids;
+}
+
+double value_of(const Diagnosis& found, std::string_view parameter) {
+  for (const auto& [name, estimate] : found.effects.at(0).parameters)
+    if (name == parameter) return estimate.value;
+  return std::nan("");
+}
+
+TEST(Diagnosis, WrongNumbersAreRecalibratedAndNothingIsNamed) {
+  const auto found = diagnosed(plant::source_axis());
+  EXPECT_EQ(found.verdict, "recalibrate");
+  EXPECT_EQ(ids_of(found), "");
+  const auto& torque = found.holdout.at("torque_cmd_Nm");
+  EXPECT_LT(torque.recalibrated, 0.5 * torque.before);
+}
+
+TEST(Diagnosis, CoggingIsNamedAloneWithItsSizeAndTheUpdatedAxisHoldsIt) {
+  auto truth = plant::source_axis();
+  truth.effects.push_back(setting("cogging", {{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}, {"phase_rad", 0.7}}));
+  const auto found = diagnosed(truth);
+  EXPECT_EQ(found.verdict, "named");
+  ASSERT_EQ(ids_of(found), "cogging ");
+  EXPECT_NEAR(value_of(found, "amplitude_Nm"), 0.01, 3e-4);
+  EXPECT_EQ(value_of(found, "cycles_per_rev"), 8.0);
+  EXPECT_NEAR(value_of(found, "phase_rad"), 0.7, 0.05);
+  const auto& torque = found.holdout.at("torque_cmd_Nm");
+  EXPECT_LT(torque.after, 0.2 * torque.recalibrated) << "on a run that the fit never saw";
+
+  tests::ScratchFolder folder("diagnosis_axis");
+  tools::write_axis_file(folder / "axis.toml", found.updated);
+  const auto back = tools::read_axis_file(folder / "axis.toml");
+  ASSERT_EQ(back.effects.size(), 1U);
+  EXPECT_EQ(back.effects[0].id, "cogging");
+  plant::FeedAxis axis(back);
+  for (int tick = 0; tick < 100; ++tick) axis.step({.torque_Nm = 0.2}, 1e-3);
+  EXPECT_TRUE(std::isfinite(axis.signals().position_m));
+}
+
+TEST(Diagnosis, TheSameRecordingGivesTheSameAnswer) {
+  auto truth = plant::source_axis();
+  truth.effects.push_back(setting("current_loop_lag", {{"time_constant_s", 2e-3}}));
+  const auto first = diagnosed(truth), second = diagnosed(truth);
+  EXPECT_EQ(tools::diagnosis::to_json(first, "a").dump(), tools::diagnosis::to_json(second, "a").dump());
+  EXPECT_NE(ids_of(first).find("current_loop_lag"), std::string::npos) << ids_of(first);
+}
+
+TEST(Diagnosis, EveryHypothesisIsAnEffectOfThePlantWithTheSameParameterNames) {
+  for (const auto& hypothesis : tools::diagnosis::hypotheses()) {
+    const auto* entry = plant::find_effect(hypothesis.id);
+    ASSERT_NE(entry, nullptr) << hypothesis.id;
+    const std::vector<double> q(hypothesis.parameters.size(), 0.5);
+    for (const auto& [name, value] : hypothesis.named(q, plant::source_axis())) {
+      auto made = plant::preset_of(*entry);
+      EXPECT_NE(plant::value_in(made, *entry, name), nullptr) << hypothesis.id << "." << name;
+      EXPECT_TRUE(std::isfinite(value)) << hypothesis.id << "." << name;
+    }
+  }
+}
+
+TEST(DiagnosisJson, HoldsEveryFieldThatScriptsRelyOn) {
+  Diagnosis found;
+  found.verdict = "agrees";
+  const auto json = tools::diagnosis::to_json(found, "axis.updated.toml");
+  for (const char* key :
+       {"verdict", "effects", "alternatives", "recalibrated", "holdout", "energy", "next_experiment", "updated_axis"})
+    EXPECT_TRUE(json.contains(key)) << key;
+}
+
+}  // namespace
+}  // namespace feedtwin
