@@ -3,13 +3,16 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "plant/parameters.h"
 #include "tools/diagnose/figures.h"
+#include "tools/diagnose/learned.h"
 #include "tools/diagnose/search.h"
+#include "tools/diagnose/setup_checks.h"
 #include "tools/recording/case.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -39,7 +42,9 @@ struct ChannelFigures {
 
 struct Diagnosis {
   std::string verdict, summary;
+  std::vector<SetupFault> setup;
   std::vector<NamedEffect> effects;
+  std::optional<Learned> unknown;  ///< structure that no hypothesis explains
   std::vector<Recalibrated> recalibrated;
   std::map<std::string, ChannelFigures> holdout;
   Energy energy_before, energy_after;

@@ -50,6 +50,22 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   out["summary"] = diagnosis.summary;
   out["effects"] = json::array();
   out["alternatives"] = json::array();
+  for (const auto& fault : diagnosis.setup) {
+    json parameters = json::object();
+    for (const auto& [name, value] : fault.parameters) parameters[name] = {{"value", value}, {"ci90", {value, value}}};
+    out["effects"].push_back({{"id", fault.id},
+                              {"component", fault.component},
+                              {"sentence", fault.sentence},
+                              {"where", {{"channel", fault.channel}, {"axis", "time"}, {"intervals", json::array()}}},
+                              {"parameters", parameters},
+                              {"share_of_mismatch", 1.0},
+                              {"p_false_alarm", 0.0}});
+  }
+  if (diagnosis.unknown)
+    out["unknown"] = {{"axis", name_of(diagnosis.unknown->axis)},
+                      {"interval", {diagnosis.unknown->low, diagnosis.unknown->high}},
+                      {"remainder_N", diagnosis.unknown->remainder_N},
+                      {"share_held_out", diagnosis.unknown->share_held_out}};
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));
     if (effect.alternatives.empty()) continue;

@@ -157,7 +157,7 @@ std::vector<ContactForces> InverseModel::contacts(const plant::AxisParameters& a
     ContactForces out{Vector::Zero(track.size), Vector::Zero(track.size)};
     double screw_m = 0.0, guide_m = 0.0;
     const double h = track.sample_s / path_substeps, per_h = 1.0 / h;
-    const bool apart = track.slip_m.size() > 0;
+    const bool apart = track.slip_m.size() > 0 && track.force_sensor_N.size() > 0;
     for (Index k = 0; k < track.size; ++k) {
       plant::FrictionScale<double> scaling;
       if (factors.screw_sliding.size() > 0) scaling.screw_sliding = std::max(0.05, factors.screw_sliding[k]);
@@ -248,7 +248,8 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   if (equation.guide) {
     mass += table_kg;
     nominal_mass += nominal_.guide_mass_kg;
-    r -= table_kg * track.table_acceleration_m_per_s2;
+    // in one equation with the motor both masses must see the same noise, or the quieter ruler draws the mass to itself
+    r -= table_kg * (equation.screw || equation.motor ? track.acceleration_m_per_s2 : track.table_acceleration_m_per_s2);
     r -= base.guide_N;
     subtract(r, meant(extra.guide_N));
     if (!equation.screw) subtract(r, extra.force_sensor_N);

@@ -46,8 +46,17 @@ std::string summary_of(const Diagnosis& diagnosis) {
   if (verdict == "recalibrate" && diagnosis.effects.empty())
     return fmt::format("{} numbers of the model are off; no physics is missing beyond {:.2g} N rms.",
                        diagnosis.recalibrated.size(), diagnosis.detection_limit_N);
-  if (verdict == "unknown") return "The mismatch is real and none of the known effects explains it.";
+  if (verdict == "unknown")
+    return fmt::format(
+        "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a table over {} explains "
+        "{:.0f} % on runs that it was not learned from; it acts mostly from {:.4g} to {:.4g}.",
+        diagnosis.unknown->remainder_N,
+        diagnosis.unknown->axis == Where::position   ? "position (m)"
+        : diagnosis.unknown->axis == Where::velocity ? "speed (m/s)"
+                                                     : "time since reversal (s)",
+        100.0 * diagnosis.unknown->share_held_out, diagnosis.unknown->low, diagnosis.unknown->high);
   std::vector<std::string> ids;
+  for (const auto& fault : diagnosis.setup) ids.push_back(fault.id);
   for (const auto& effect : diagnosis.effects) ids.emplace_back(effect.hypothesis->id);
   return fmt::format("{}: {}.", verdict == "recalibrate" ? "A number of the model is wrong" : "Missing from the model",
                      list_of(ids));

@@ -42,7 +42,7 @@ Hypothesis channel_skew() {
       .admissible = possible,
       .sentence =
           "the sensors are late against the encoder: torque by {torque_sensor_delay_s} s, force by {force_sensor_delay_s} s",
-
+      .absorbed = true,
       .confused_with = {"input_delay", "current_loop_lag"},
       .friction = false};
 }

@@ -37,6 +37,8 @@ std::vector<Hypothesis> registered() {
       floor_vibration(),
       screw_growth(),
       load_dependent_friction(),
+      presliding_memory(),
+      hidden_friction_compensation(),
   };
 }
 

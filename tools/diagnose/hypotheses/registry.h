@@ -38,6 +38,8 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis floor_vibration();
 [[nodiscard]] Hypothesis screw_growth();
 [[nodiscard]] Hypothesis load_dependent_friction();
+[[nodiscard]] Hypothesis presliding_memory();
+[[nodiscard]] Hypothesis hidden_friction_compensation();
 
 [[nodiscard]] std::vector<Hypothesis> registered();
 

@@ -1,0 +1,58 @@
+// Pre-sliding with nonlocal memory: Maxwell-slip elements in parallel, F = sum k e_i with |e_i| <= d_i.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  constexpr int elements = 8;
+  const Track& track = view.track;
+  std::array<double, elements> stretched{};
+  Vector force(track.size);
+  const double stiffness = 2.0 * q[0] / (elements * q[1]);
+  for (Index k = 0; k < track.size; ++k) {
+    const double moved = k > 0 ? track.position_m[k] - track.position_m[k - 1] : 0.0;
+    force[k] = 0.0;
+    for (int i = 0; i < elements; ++i) {
+      const double limit = q[1] * (i + 0.5) / elements;
+      double& e = stretched[static_cast<std::size_t>(i)];
+      e = std::clamp(e + moved, -limit, limit);
+      force[k] += stiffness * e;
+    }
+  }
+  add(sum.screw_N, force);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"force_N", q[0]}, {"distance_m", q[1]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 0.0;
+}
+
+}  // namespace
+
+Hypothesis presliding_memory() {
+  return {.id = "presliding_memory",
+          .component = "ball_screw",
+          .channel = "torque_cmd_Nm",
+          .where = Where::reversal,
+          .parameters = {{"force_N", Kind::amplitude, 0.1}, {"distance_m", Kind::shape, 1e-7, 1e-7, 1e-3}},
+          .shapes = {{2e-6}, {5e-6}, {1e-5}, {3e-5}, {1e-4}},
+          .apply = apply,
+          .named = named,
+          .admissible = possible,
+          .sentence = "before it slides, friction remembers more than one bristle can: {force_N} N over {distance_m} m",
+          .absorbed = true,
+          .confused_with = {"backlash", "dwell_breakaway"},
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,91 @@
+#include "tools/diagnose/setup_checks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+/// Work of a force-like channel along the motion over its magnitude: friction makes it positive.
+double work_share(const std::vector<Recording>& runs, std::string_view force, std::string_view position) {
+  double work = 0.0, magnitude = 0.0;
+  for (const auto& run : runs) {
+    const auto f = run.at(force), x = run.at(position);
+    for (std::size_t k = 8; k < f.size() && k < x.size(); ++k) {
+      const double moved = x[k] - x[k - 8];
+      work += f[k] * moved;
+      magnitude += std::abs(f[k] * moved);
+    }
+  }
+  return magnitude > 0.0 ? work / magnitude : 0.0;
+}
+
+/// Slope of one position over the other.
+double ratio(const std::vector<Recording>& runs, std::string_view of, std::string_view to) {
+  double product = 0.0, square = 0.0;
+  for (const auto& run : runs) {
+    const auto y = run.at(of), x = run.at(to);
+    for (std::size_t k = 8; k < y.size() && k < x.size(); ++k) {
+      product += (y[k] - y[k - 8]) * (x[k] - x[k - 8]);
+      square += (x[k] - x[k - 8]) * (x[k] - x[k - 8]);
+    }
+  }
+  return square > 0.0 ? product / square : 1.0;
+}
+
+void multiply(Case& data, std::string_view name, double factor) {
+  for (auto* runs : {&data.fit, &data.holdout})
+    for (auto& run : *runs)
+      if (const auto found = run.channels.find(name); found != run.channels.end())
+        for (double& value : found->second) value *= factor;
+}
+
+SetupFault reversed(std::string_view name, const char* parameter) {
+  return {"wrong_sign",
+          "set_up",
+          std::string(name),
+          fmt::format("{} is wired in reverse: the work that it would do has the wrong sign.", name),
+          {{parameter, -1.0}}};
+}
+
+}  // namespace
+
+std::vector<SetupFault> mend_setup(Case& data) {
+  std::vector<SetupFault> faults;
+  constexpr double clear = -0.2;
+  const auto has = [&data](std::string_view name) { return !data.fit.empty() && data.fit.front().has(name); };
+  const auto mend = [&](std::string_view name, const char* parameter) {
+    faults.push_back(reversed(name, parameter));
+    multiply(data, name, -1.0);
+  };
+  const bool scale = has(channel::scale_position_m);
+  if (scale && ratio(data.fit, channel::scale_position_m, channel::position_m) < 0.0) {
+    // whichever of the two agrees with the torque is right
+    if (work_share(data.fit, channel::torque_cmd_Nm, channel::scale_position_m) > 0.0)
+      mend(channel::position_m, "encoder_sign");
+    else
+      mend(channel::scale_position_m, "scale_sign");
+  }
+  if (work_share(data.fit, channel::torque_cmd_Nm, channel::position_m) < clear) mend(channel::torque_cmd_Nm, "torque_sign");
+  for (const auto& [name, parameter] :
+       {std::pair{channel::torque_sensor_Nm, "torque_sensor_sign"}, std::pair{channel::force_sensor_N, "force_sensor_sign"}})
+    if (has(name) && work_share(data.fit, name, channel::position_m) < clear) mend(name, parameter);
+
+  if (scale) {
+    const double factor = ratio(data.fit, channel::scale_position_m, channel::position_m);
+    if (std::abs(factor - 1.0) > 0.01) {
+      faults.push_back(
+          {"wrong_lead",
+           "set_up",
+           std::string(channel::scale_position_m),
+           fmt::format("the lead in the configuration is wrong: the table travels {:.4f} of what the encoder says.", factor),
+           {{"factor", factor}}});
+      data.axis.axis.lead_m *= factor;
+      multiply(data, channel::position_m, factor);
+    }
+  }
+  return faults;
+}
+
+}  // namespace feedtwin::tools::diagnosis

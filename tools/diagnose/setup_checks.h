@@ -1,0 +1,21 @@
+#pragma once
+// What a wrong wire or a typo does mimics everything, so it is looked for first: a signal in reverse, a lead that is not the
+// screw's.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/recording/case.h"
+
+namespace feedtwin::tools::diagnosis {
+
+struct SetupFault {
+  std::string id, component, channel, sentence;
+  std::vector<std::pair<std::string, double>> parameters;  ///< named as in the plant's registry
+};
+
+/// Finds the faults and takes them out of the recordings and the axis, so that the rest of the diagnosis sees them no more.
+[[nodiscard]] std::vector<SetupFault> mend_setup(Case& data);
+
+}  // namespace feedtwin::tools::diagnosis
