@@ -28,7 +28,8 @@ InverseModel model_of(const std::vector<Recording>& recordings, const plant::Axi
 bool worth_naming(const Active& active) {
   const auto id = active.hypothesis->id;
   if (id == "channel_skew") return std::max(active.q[0], active.q[1]) > 1.2e-3;
-  if (id == "screw_compliance") return active.q[0] > 1e-8;  // softer than 100 N/um
+  if (id == "presliding_memory") return active.q[0] > 20.0;  // below that it is how LuGre itself simplifies
+  if (id == "screw_compliance") return active.q[0] > 1e-8;   // softer than 100 N/um
   return true;
 }
 

@@ -34,9 +34,7 @@ Step best_step(const Fitter& fitter, const Fit& now, const Whitening& whitening,
     const bool force = score.hypothesis->channel != "power_W" && score.hypothesis->channel != "scale_position_m";
     const double smallness = force ? std::pow(std::max(1.0, bar.smallest_residual_N / left_N), 2) : 1.0;
     // a gain scales everything: the nominal numbers alone can't tell it
-    const bool scales =
-        score.hypothesis->id == "torque_gain_error" || score.hypothesis->id == "hidden_friction_compensation";
-    const double enough_surprise = scales ? 1e300 : bar.nominal_surprise;
+    const double enough_surprise = score.hypothesis->id == "torque_gain_error" ? 1e300 : bar.nominal_surprise;
     const double needed = (score.hypothesis->id == "local_friction" ? 0.2
                            : score.hypothesis->absorbed             ? bar.share_if_absorbed
                                                                     : bar.share) *

@@ -38,7 +38,6 @@ std::vector<Hypothesis> registered() {
       screw_growth(),
       load_dependent_friction(),
       presliding_memory(),
-      hidden_friction_compensation(),
   };
 }
 

@@ -39,7 +39,6 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis screw_growth();
 [[nodiscard]] Hypothesis load_dependent_friction();
 [[nodiscard]] Hypothesis presliding_memory();
-[[nodiscard]] Hypothesis hidden_friction_compensation();
 
 [[nodiscard]] std::vector<Hypothesis> registered();
 
