@@ -16,6 +16,11 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"amplitude_N", std::hypot(q[0], q[1])}, {"cycles_per_rev", q[2]}, {"phase_rad", std::atan2(q[1], q[0])}};
 }
 
+/// A whole number above two is the motor's: poles and slots.
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[2] < 2.05 || std::abs(q[2] - std::round(q[2])) > 0.02;
+}
+
 }  // namespace
 
 Hypothesis rev_ripple() {
@@ -29,6 +34,7 @@ Hypothesis rev_ripple() {
           .shapes = ripple_orders(),
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the screw runs unevenly: {amplitude_N} N, {cycles_per_rev} times a revolution",
 
           .confused_with = {"cogging", "torque_ripple", "encoder_eccentricity"},
