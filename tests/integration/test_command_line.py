@@ -37,7 +37,8 @@ class CommandLine(unittest.TestCase):
         for verb in verbs:
             result = program.run(verb, "--help")
             self.assertEqual(result.returncode, 0, verb)
-            self.assertIn("--json", result.stdout, f"{verb} reports numbers")
+            if verb not in ("report", "can-files"):  # these write files, not numbers
+                self.assertIn("--json", result.stdout, f"{verb} reports numbers")
 
     def test_wrong_usage(self):
         self.assert_wrong_input(program.run("sirve"))

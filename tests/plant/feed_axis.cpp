@@ -43,7 +43,8 @@ double bristle_limit_m(const LugreParameters& p) {
 
 std::string numbers_of(AxisParameters p) {
   std::string text;
-  for (const auto& entry : parameter_table()) text += std::string(entry.key) + " = " + testing::PrintToString(entry.in(p)) + "\n";
+  for (const auto& entry : parameter_table())
+    text += std::string(entry.key) + " = " + testing::PrintToString(entry.in(p)) + "\n";
   return text;
 }
 
@@ -68,8 +69,9 @@ void expect_sound(const AxisParameters& parameters, Inputs& inputs, int ticks, d
   }
   const AxisEnergy e = axis.energy();
   ASSERT_LE(e.balance_error(), largest_balance_error)
-      << "work in " << e.input_work_J << " motor " << e.motor_mechanical_J << " screw " << e.ball_screw_J << " guide " << e.guide_J
-      << " cutting " << e.cutting_J << " stop " << e.end_stop_J << " throughput " << e.throughput_J << "\n" << numbers_of(parameters);
+      << "work in " << e.input_work_J << " motor " << e.motor_mechanical_J << " screw " << e.ball_screw_J << " guide "
+      << e.guide_J << " cutting " << e.cutting_J << " stop " << e.end_stop_J << " throughput " << e.throughput_J << "\n"
+      << numbers_of(parameters);
 }
 
 TEST(FeedAxis, AnyInputOnAxesLikeTheSource) {
