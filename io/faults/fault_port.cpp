@@ -5,12 +5,12 @@
 
 namespace feedtwin::io::faults {
 
-FaultPort::FaultPort(std::unique_ptr<Port> inner, std::vector<Fault> faults, const PortContext& context)
-    : FaultPort(*inner, std::move(faults), context) {
+FaultPort::FaultPort(std::unique_ptr<Port> inner, const std::vector<Fault>& faults, const PortContext& context)
+    : FaultPort(*inner, faults, context) {
   owned_ = std::move(inner);
 }
 
-FaultPort::FaultPort(Port& inner, std::vector<Fault> faults, const PortContext& context)
+FaultPort::FaultPort(Port& inner, const std::vector<Fault>& faults, const PortContext& context)
     : inner_(inner), tick_s_(context.tick_s), happenings_(2 * faults.size()) {
   const auto axes = static_cast<std::size_t>(context.axes);
   for (const auto& fault : faults) faults_.push_back({fault, false, false});
@@ -58,7 +58,7 @@ CommandConditions FaultPort::conditions(int axis) const noexcept FEEDTWIN_REALTI
         break;
       case FaultKind::late_command:
         now.late = std::max(now.late, timed.fault.share);
-        now.delay_ticks = std::max(now.delay_ticks, static_cast<std::uint64_t>(timed.fault.delay_s / tick_s_ + 0.5));
+        now.delay_ticks = std::max(now.delay_ticks, static_cast<std::uint64_t>(std::llround(timed.fault.delay_s / tick_s_)));
         break;
       case FaultKind::repeated_command:
         now.repeated = std::max(now.repeated, timed.fault.share);

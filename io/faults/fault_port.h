@@ -17,9 +17,9 @@ namespace feedtwin::io::faults {
 class FaultPort final : public Port {
  public:
   /// @param inner must outlive this
-  FaultPort(Port& inner, std::vector<Fault> faults, const PortContext& context);
+  FaultPort(Port& inner, const std::vector<Fault>& faults, const PortContext& context);
   /// The same with a port of its own.
-  FaultPort(std::unique_ptr<Port> inner, std::vector<Fault> faults, const PortContext& context);
+  FaultPort(std::unique_ptr<Port> inner, const std::vector<Fault>& faults, const PortContext& context);
 
   [[nodiscard]] std::string_view name() const noexcept override { return inner_.name(); }
   void open() override { inner_.open(); }

@@ -40,9 +40,9 @@ struct ServerConfig {
 };
 
 struct ConfigRequest {
-  std::string path;                         ///< empty: the built-in configuration
-  std::optional<std::string> controller{};  ///< overrides the file's
-  bool with_ports = true;                   ///< false: off line, no port is made (their keys are still checked)
+  std::string path;                                      ///< empty: the built-in configuration
+  std::optional<std::string> controller = std::nullopt;  ///< overrides the file's
+  bool with_ports = true;                                ///< false: off line, no port is made (their keys are still checked)
 };
 
 /// Throws InputError.

@@ -35,7 +35,7 @@ std::vector<Equation> equations_for(const Track& track) {
   const bool torque = track.torque_sensor_N.size() > 0, force = track.force_sensor_N.size() > 0;
   std::vector<Equation> found;
   Equation open{.name = "motor", .motor = true};
-  const auto close = [&](bool sensor, std::string next) {
+  const auto close = [&](bool sensor, const std::string& next) {
     if (sensor) {
       found.push_back(open);
       open = {.name = next};
