@@ -79,7 +79,7 @@ TEST(Quadrature, EveryCountComesBackThroughReversals) {
         if (axis == 0) {
           for (std::int64_t c = at[0]; c != to;) {
             c += to > c ? 1 : -1;
-            indices += c % rev == 0 ? 1 : 0;
+            indices += c % rev == 0 ? 1U : 0U;
           }
         }
         at[axis] = to;
