@@ -32,7 +32,11 @@ class RandomProgram {
   template <class... Arguments>
   void add(const char* format, Arguments... arguments) {
     char buffer[300];
-    std::snprintf(buffer, sizeof buffer, format, arguments...);
+    if constexpr (sizeof...(arguments) == 0) {
+      std::snprintf(buffer, sizeof buffer, "%s", format);
+    } else {
+      std::snprintf(buffer, sizeof buffer, format, arguments...);
+    }
     text_ += buffer;
     text_ += '\n';
   }
