@@ -33,6 +33,7 @@ template <class Real>
 void set_lane(AxisModel<Real>& to, std::size_t lane, const AxisModel<double>& from) noexcept {
   to.transmission_rad_per_m[lane] = from.transmission_rad_per_m;
   to.mass_kg[lane] = from.mass_kg;
+  to.per_mass_per_kg[lane] = from.per_mass_per_kg;
   to.motor_mass_kg[lane] = from.motor_mass_kg;
   to.screw_mass_kg[lane] = from.screw_mass_kg;
   to.table_mass_kg[lane] = from.table_mass_kg;

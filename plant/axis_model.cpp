@@ -27,6 +27,7 @@ AxisModel<double> make_axis_model(const AxisParameters& parameters) {
   model.screw_mass_kg = parameters.ball_screw_inertia_kgm2 * k * k;
   model.table_mass_kg = parameters.guide_mass_kg;
   model.mass_kg = model.motor_mass_kg + model.screw_mass_kg + model.table_mass_kg;
+  model.per_mass_per_kg = 1.0 / model.mass_kg;
   model.damping_pos_Ns_per_m = parameters.motor.damping_Nms.pos * k * k;
   model.damping_neg_Ns_per_m = parameters.motor.damping_Nms.neg * k * k;
   model.coulomb_pos_N = parameters.motor.coulomb_N.pos;

@@ -13,6 +13,7 @@ template <class Real>
 struct AxisModel {
   Real transmission_rad_per_m{};  ///< 2 pi / p_b
   Real mass_kg{};                 ///< all inertia as mass at the table
+  Real per_mass_per_kg{};         ///< 1 / mass
   Real motor_mass_kg{}, screw_mass_kg{}, table_mass_kg{};
   Real damping_pos_Ns_per_m{}, damping_neg_Ns_per_m{};  ///< B_M (2 pi / p_b)^2
   Real coulomb_pos_N{}, coulomb_neg_N{};                ///< F_M

@@ -8,9 +8,15 @@
 // v)^2 / (12 + 2 y), and with it M (v'^2 - v^2) / 2 = M w (v' - v) - h D (v' - v)^2 / (12 + 2 y): work in = kinetic + stored
 // + lost in every sub-step.
 //
+// In pre-sliding the bristles are springs, and over a sub-step neither is the spring's mean force that at the mean
+// position, nor the mean velocity that of start and end. With kappa = h^2 K / (12 M), K the bristles' stiffness where they
+// do not slip, both are mended: w = (v + v') / 2 + kappa w, and M (1 - kappa) (v' - v) / h = drive - ... . That is the
+// fourth-order Fox-Goodwin (Numerov) rule; it keeps the energy of spring and mass exactly and halves the sub-steps.
+//
 // Coulomb friction is set-valued and stays so: a sub-step never runs across a reversal. Where the velocity would change
-// its sign, the sub-step ends at the zero crossing; there the axis sticks if the motor's Coulomb friction can hold the rest
-// (it then stays exactly at rest), or sets off in the direction of the net force.
+// its sign, the sub-step ends at the zero crossing, foreseen from the acceleration or found by a trial; there the axis
+// sticks if the motor's Coulomb friction can hold the rest (it then stays exactly at rest), or sets off in the direction of
+// the net force.
 //
 // Bounded: at most substeps + extra_substeps evaluations a tick, no allocation, no branch on data other than events.
 
@@ -25,13 +31,17 @@ namespace feedtwin::plant {
 struct Resolution {
   int sliding = 1;
   int settling = 2;
-  int reversing = 6;
+  int reversing = 3;
   double settling_within_ticks = 12.0;
   double reversing_within_ticks = 2.0;
 };
-inline constexpr Resolution one_count{};                            ///< position within one count of 76 nm
-inline constexpr Resolution tenth_of_a_count{4, 6, 18, 12.0, 3.0};  ///< within a tenth
-inline constexpr int extra_substeps = 12;                           ///< for reversals within a tick
+inline constexpr Resolution one_count{};                           ///< position within one count of 76 nm
+inline constexpr Resolution tenth_of_a_count{1, 2, 5, 30.0, 3.0};  ///< within a tenth
+inline constexpr int extra_substeps = 12;                          ///< for reversals within a tick
+/// Of the nominal sub-step: what is left of a tick is taken in one if it can be.
+inline constexpr double longest_substep = 1.26;
+/// Of a sub-step's first velocity: what is left then goes by the mean slope.
+inline constexpr double near_its_reversal = 0.05;
 
 /// What acts in a sub-step beside Eq. 1's own terms.
 template <class Real>
@@ -76,7 +86,9 @@ struct Trial {
   Real stop_force_N;
   Real h_s, per_h_Hz;
   Real per_theta;  ///< 1 / theta
+  Real unswung;    ///< 1 - kappa
   Real arrest_J;   ///< kinetic energy left where a step to a reversal ends: the motor's Coulomb friction takes it up
+  Real taken_s;    ///< h, or as far as the reversal
 };
 
 /// Net force at rest without the motor's Coulomb friction: what that friction would have to hold.
@@ -86,6 +98,15 @@ template <class Real, class Effects>
   const Real bristles = model.contacts.stiffness_force_N(state.screw_bristle_m, state.guide_bristle_m);
   const Real extra = effects.before(state, {Real{} + 1.0, Real{}, h_s, 1.0 / h_s}).force_N;
   return state.drive_N - bristles - extra - end_stop_load<Real>(model, state.position_m, Real{}, h_s).force_N;
+}
+
+/// kappa: what pre-sliding stiffness adds to the mid-point rule. Bounded, so that an absurd stiffness stays stable.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline Real kappa_of(const AxisModel<Real>& model, const ContactsStep<Real>& contacts,
+                                                       Real h_s) noexcept {
+  const Real stiffness_h = model.contacts.stiffness_force_N(contacts.screw_bristle_slope_s, contacts.guide_bristle_slope_s);
+  const Real kappa = h_s * stiffness_h * ((1.0 / 12.0) * model.per_mass_per_kg);
+  return smaller<Real>(larger<Real>(kappa, Real{}), Real{} + 0.25);
 }
 
 /// One Newton step from the predicted mean velocity.
@@ -107,12 +128,13 @@ template <class Real, class Effects>
   const Real coulomb = positive ? model.coulomb_pos_N : -model.coulomb_neg_N;
   const Real y = h_s * (positive ? model.damping_rate_pos_Hz : model.damping_rate_neg_Hz);
   const Real per_theta = (6.0 + y) / (3.0 + y);
-  const Real inertia = model.mass_kg * per_h_Hz * per_theta;
+  const Real unswung = 1.0 - kappa_of<Real>(model, contacts, h_s);
+  const Real inertia = model.mass_kg * per_h_Hz * per_theta * unswung;
   const Real resisting =
       coulomb + damping * w + contacts.screw_force_N + contacts.guide_force_N + extra.force_N + stop.force_N;
-  const Real slope = inertia + damping + contacts.screw_force_slope_Ns_per_m + contacts.guide_force_slope_Ns_per_m +
-                     extra.force_slope_Ns_per_m + stop.force_slope_Ns_per_m;
-  const Real correction = (state.drive_N - resisting - inertia * (w - v)) / slope;
+  const Real slope = inertia * unswung + damping + contacts.screw_force_slope_Ns_per_m +
+                     contacts.guide_force_slope_Ns_per_m + extra.force_slope_Ns_per_m + stop.force_slope_Ns_per_m;
+  const Real correction = (state.drive_N - resisting - inertia * (unswung * w - v)) / slope;
 
   contacts.screw_force_N += contacts.screw_force_slope_Ns_per_m * correction;
   contacts.guide_force_N += contacts.guide_force_slope_Ns_per_m * correction;
@@ -121,10 +143,11 @@ template <class Real, class Effects>
   contacts.guide_bristle_m =
       within<Real>(contacts.guide_bristle_m + contacts.guide_bristle_slope_s * correction, contacts.guide_bristle_limit_m);
   const Real mean = w + correction;
-  return {mean,      v + per_theta * (mean - v),
+  return {mean,      v + per_theta * (unswung * mean - v),
           contacts,  stop.force_N + stop.force_slope_Ns_per_m * correction,
           h_s,       per_h_Hz,
-          per_theta, Real{}};
+          per_theta, unswung,
+          Real{},    h_s};
 }
 
 /// The sub-step again, only the given fraction of it. Rare, so out of line: the common path stays in registers.
@@ -137,6 +160,17 @@ template <class Real, class Effects>
   return solve<Real>(model, state, effects, sign, shortened ? full.h_s * fraction : full.h_s);
 }
 
+/// A trial that ends near its reversal ends at it: the last bit of velocity goes, with the time that it would take.
+template <class Real>
+[[gnu::always_inline]] inline void arrest(const AxisModel<Real>& model, Real start_m_per_s, Trial<Real>& trial,
+                                          MaskOf<Real> there) noexcept {
+  const Real v = trial.velocity_m_per_s;
+  const Real left_J = 0.5 * model.mass_kg * v * v;
+  trial.arrest_J = there ? left_J : Real{};
+  trial.taken_s = there ? trial.h_s * (start_m_per_s / (start_m_per_s - v)) : trial.h_s;
+  trial.velocity_m_per_s = there ? Real{} : v;
+}
+
 /// As far as the velocity's zero crossing.
 template <class Real, class Effects>
 [[nodiscard]] Trial<Real> solve_to_reversal(const AxisModel<Real>& model, const AxisState<Real>& state, Effects& effects,
@@ -144,9 +178,7 @@ template <class Real, class Effects>
   const Real v = state.velocity_m_per_s;
   const Real fraction = larger<Real>(v / (v - full.velocity_m_per_s), Real{} + 1e-9);
   Trial<Real> trial = solve_part<Real>(model, state, effects, sign, full, fraction, shortened);
-  const Real left_J = 0.5 * model.mass_kg * trial.velocity_m_per_s * trial.velocity_m_per_s;
-  trial.arrest_J = shortened ? left_J : Real{};
-  trial.velocity_m_per_s = shortened ? Real{} : trial.velocity_m_per_s;
+  arrest<Real>(model, v, trial, shortened);
   return trial;
 }
 
@@ -165,7 +197,7 @@ template <class Real>
   return (above | below) ? larger<Real>((edge_m - position_m) / path_m, Real{} + 1e-6) : one;
 }
 
-/// @param w mean velocity, 0 in lanes that stand; @param ahead w less the velocity at the start, likewise
+/// @param w mean velocity, 0 in lanes that stand; @param ahead theta (v' - v), likewise
 template <class Real>
 [[gnu::always_inline]] inline void account(const AxisModel<Real>& model, const Trial<Real>& trial, MaskOf<Real> positive,
                                            Real w, Real ahead, AxisLosses<Real>& losses) noexcept {
@@ -202,7 +234,7 @@ template <class Real, class Effects>
     const Mask stuck = at_rest & !(forward | backward);
     const Real beyond = forward ? net - model.coulomb_pos_N : net + model.coulomb_neg_N;
     sign = at_rest ? (forward ? Real{} + 1.0 : Real{} - 1.0) : sign;
-    state.acceleration_m_per_s2 = at_rest ? beyond / model.mass_kg : state.acceleration_m_per_s2;
+    state.acceleration_m_per_s2 = at_rest ? beyond * model.per_mass_per_kg : state.acceleration_m_per_s2;
     state.acceleration_m_per_s2 = stuck ? Real{} : state.acceleration_m_per_s2;
     idle = idle | stuck;
     if (!any(Mask(!idle))) {
@@ -212,7 +244,15 @@ template <class Real, class Effects>
     }
   }
 
-  Trial<Real> trial = solve<Real>(model, state, effects, sign, h_s);
+  // where the axis seems to reverse within the sub-step, as far as there
+  const Real v = state.velocity_m_per_s;
+  const Real stop_rate = -state.acceleration_m_per_s2 * h_s;
+  const Mask slowing = (sign * stop_rate > sign * v) & !at_rest;
+  Real trial_s = h_s;
+  if (any(slowing)) trial_s = slowing ? h_s * larger<Real>(v / stop_rate, Real{} + 1e-6) : h_s;
+  Trial<Real> trial = solve<Real>(model, state, effects, sign, trial_s);
+  const Mask near = slowing & (absolute<Real>(trial.velocity_m_per_s) < near_its_reversal * absolute<Real>(v)) & !idle;
+  if (any(near)) arrest<Real>(model, v, trial, near);
   const Mask crossing = (sign * trial.velocity_m_per_s < 0.0) & !idle;
   if (any(crossing)) {
     const Mask rebound = crossing & (state.velocity_m_per_s == 0.0);  // out of rest and back within one: a rest
@@ -224,7 +264,7 @@ template <class Real, class Effects>
   const Mask entering = (to_stop < 1.0) & !idle;
   if (any(entering)) trial = solve_part<Real>(model, state, effects, sign, trial, to_stop, entering);
   const Real w = idle ? Real{} : trial.mean_velocity_m_per_s;
-  const Real ahead = idle ? Real{} : w - state.velocity_m_per_s;
+  const Real ahead = idle ? Real{} : trial.unswung * w - state.velocity_m_per_s;
   account<Real>(model, trial, sign > 0.0, w, ahead, losses);
   const Real acceleration = trial.per_theta * ahead * trial.per_h_Hz;
   state.position_m += w * trial.h_s;
@@ -232,9 +272,8 @@ template <class Real, class Effects>
   state.velocity_m_per_s = idle ? state.velocity_m_per_s : trial.velocity_m_per_s;
   state.screw_bristle_m = idle ? state.screw_bristle_m : trial.contacts.screw_bristle_m;
   state.guide_bristle_m = idle ? state.guide_bristle_m : trial.contacts.guide_bristle_m;
-  const Real taken_s = ended ? Real{} : trial.h_s;
-  effects.after(state, w, taken_s);
-  return taken_s;
+  effects.after(state, w, ended ? Real{} : trial.h_s);
+  return ended ? Real{} : trial.taken_s;
 }
 
 }  // namespace detail
@@ -246,7 +285,7 @@ inline AxisLosses<Real> integrate_tick(const AxisModel<Real>& model, AxisState<R
                                        Real drive_N, double tick_s, const Resolution& resolution) noexcept {
   AxisState<Real> state = axis_state;  // a copy, so that it stays in registers
   AxisLosses<Real> taken{};
-  state.acceleration_m_per_s2 += (drive_N - state.drive_N) / model.mass_kg;
+  state.acceleration_m_per_s2 += (drive_N - state.drive_N) * model.per_mass_per_kg;
   state.drive_N = drive_N;
   const Real speed = absolute<Real>(state.velocity_m_per_s);
   // how near a reversal: the time, in ticks, that the velocity would take to it
@@ -258,10 +297,11 @@ inline AxisLosses<Real> integrate_tick(const AxisModel<Real>& model, AxisState<R
                                                                                 : reversing_s;
   const int most = std::max({resolution.sliding, resolution.settling, resolution.reversing}) + extra_substeps;
   const double rounding_s = 1e-9 * tick_s;
+  const Real whole_s = longest_substep * nominal_s;
   Real left_s = Real{} + tick_s;
   for (int i = 0; i < most && any(left_s > 0.0); ++i) {
     const MaskOf<Real> ended = !(left_s > 0.0);
-    const Real h_s = ended ? nominal_s : smaller<Real>(nominal_s, left_s);
+    const Real h_s = ended ? nominal_s : (left_s < whole_s ? left_s : nominal_s);
     left_s -= detail::substep<Real>(model, state, taken, effects, h_s, ended);
     left_s = left_s > rounding_s ? left_s : Real{};
   }

@@ -73,6 +73,7 @@ AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noex
   AxisModel<double> without = model;
   if (!coupling_) return without;
   without.mass_kg -= model.table_mass_kg;
+  without.per_mass_per_kg = 1.0 / without.mass_kg;
   without.table_mass_kg = 0.0;
   auto& both = without.contacts.both;
   without.damping_rate_pos_Hz = (model.damping_pos_Ns_per_m + both.pos.viscous_Ns_per_m[0]) / without.mass_kg;
