@@ -139,5 +139,20 @@ TEST(RegisterMap, AnalogScaleIsTenVoltsForRatedTorque) {
     ASSERT_EQ(static_cast<std::int16_t>(torque_from_analog(analog_from_torque(static_cast<std::uint16_t>(torque)))), torque);
 }
 
+TEST(RegisterMap, AMachinesRegistersBecomeItsRequest) {
+  std::array<std::uint16_t, holding_stride> registers{};
+  registers[8] = 3000;
+  registers[10] = 250;
+  for (std::uint16_t bits = 0; bits < 16; ++bits) {
+    registers[9] = bits;
+    const auto request = machine_request_from(registers);
+    const double sign = (bits & 3) == 1 ? 1.0 : (bits & 3) == 2 ? -1.0 : 0.0;
+    EXPECT_NEAR(request.spindle_speed_rad_per_s, sign * 314.159265, 1e-6) << bits;
+    EXPECT_EQ(request.pump, (bits & 12) != 0) << bits;
+    EXPECT_DOUBLE_EQ(request.depth_of_cut_m, 250e-6);
+    EXPECT_FALSE(request.path_engagement);
+  }
+}
+
 }  // namespace
 }  // namespace feedtwin::io::modbus
