@@ -8,7 +8,7 @@
 
 #include "controllers/gcode/arc.h"
 #include "controllers/gcode/block.h"
-#include "controllers/gcode/modal_groups.h"
+#include "controllers/gcode/line_codes.h"
 
 namespace feedtwin::controllers::gcode {
 namespace {
@@ -23,48 +23,6 @@ constexpr double largest_speed_rpm = 1e6;
 
 enum class FeedMode { per_minute, inverse_time, per_revolution };
 enum class Motion { traverse = 0, feed = 1, clockwise = 2, counterclockwise = 3, none = 80 };
-
-std::string shown(char letter, int tenths) {
-  std::string text = letter + std::to_string(tenths / 10);
-  return tenths % 10 == 0 ? text : text + "." + std::to_string(tenths % 10);
-}
-
-/// The codes of one line by group.
-struct Codes {
-  std::array<std::optional<Code>, static_cast<std::size_t>(GGroup::count)> g;
-  std::array<std::optional<Code>, static_cast<std::size_t>(MGroup::count)> m;
-  bool machine_coordinates = false;  // G53, beside a motion
-  bool mist = false, flood = false;  // M7 and M8 may stand together
-
-  [[nodiscard]] const std::optional<Code>& operator[](GGroup group) const { return g[static_cast<std::size_t>(group)]; }
-  [[nodiscard]] const std::optional<Code>& operator[](MGroup group) const { return m[static_cast<std::size_t>(group)]; }
-};
-
-Codes sort_codes(const Block& block) {
-  Codes codes;
-  for (const Code& code : block.g) {
-    const auto group = group_of_g(code.tenths);
-    if (!group) block.fail(code.at, shown('G', code.tenths) + " is not supported");
-    auto& slot = codes.g[static_cast<std::size_t>(*group)];
-    if (slot) block.fail(code.at, shown('G', code.tenths) + " excludes " + shown('G', slot->tenths) + " on the same line");
-    slot = code;
-    codes.machine_coordinates = codes.machine_coordinates || code.tenths == 530;
-  }
-  for (const Code& code : block.m) {
-    const auto group = group_of_m(code.tenths);
-    if (!group) block.fail(code.at, shown('M', code.tenths) + " is not supported");
-    auto& slot = codes.m[static_cast<std::size_t>(*group)];
-    const bool both_pumps = slot && (slot->tenths == 70 || slot->tenths == 80) && (code.tenths == 70 || code.tenths == 80) &&
-                            slot->tenths != code.tenths;
-    if (slot && !both_pumps) {
-      block.fail(code.at, shown('M', code.tenths) + " excludes " + shown('M', slot->tenths) + " on the same line");
-    }
-    slot = code;
-    codes.mist = codes.mist || code.tenths == 70;
-    codes.flood = codes.flood || code.tenths == 80;
-  }
-  return codes;
-}
 
 class Interpreter {
  public:
