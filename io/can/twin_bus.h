@@ -50,7 +50,7 @@ class TwinBus {
 
   double ns_per_bit_;
   BusFaults faults_;
-  std::mt19937_64 random_{1};
+  std::mt19937_64 random_{1};  // NOLINT(bugprone-random-generator-seed): faults that repeat
   bool off_ = false;
   std::int64_t now_ns_ = 0, free_ns_ = 0, busy_ns_ = 0;
   std::uint64_t frames_ = 0, lost_ = 0;

@@ -62,8 +62,8 @@ void MillingForce::add_tooth(double phi_rad, double turn_rad, const Immersion& i
     from = std::max(from, crest - half);
     to = std::min(to, crest + half);
   }
-  for (double shift = 0.0; shift < 2.0; shift += 1.0) {  // the tooth may come round once
-    const double a = std::max(from, phi_rad - shift * 2.0 * pi), b = std::min(to, phi_rad + turn_rad - shift * 2.0 * pi);
+  for (const double shift : {0.0, 2.0 * pi}) {  // the tooth may come round once
+    const double a = std::max(from, phi_rad - shift), b = std::min(to, phi_rad + turn_rad - shift);
     if (b > a) add_piece(a, b, ahead_m, left_m, stand_out_m, dz_m, sums);
   }
 }

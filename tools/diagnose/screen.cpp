@@ -28,7 +28,7 @@ std::vector<Segment> blocks_of(const InverseModel& model) {
 }
 
 Eigen::MatrixXd random_signs(std::size_t blocks) {
-  std::mt19937 random(20140501);
+  std::mt19937 random(20140501);  // NOLINT(bugprone-random-generator-seed): the same answer for the same input
   Eigen::MatrixXd signs(static_cast<Index>(blocks), surrogates);
   for (Index s = 0; s < surrogates; ++s)
     for (Index b = 0; b < signs.rows(); ++b) signs(b, s) = (random() & 1U) != 0U ? 1.0 : -1.0;

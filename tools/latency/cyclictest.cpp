@@ -36,7 +36,7 @@ std::optional<CyclictestResult> run_cyclictest(const CyclictestSettings& setting
       "--json={} >/dev/null 2>&1",
       program, settings.priority, settings.period_s * 1e6, settings.duration_s,
       settings.cpu >= 0 ? fmt::format("--affinity={}", settings.cpu) : "", answer.string());
-  if (std::system(command.c_str()) != 0) return std::nullopt;  // NOLINT(concurrency-mt-unsafe): before any thread
+  if (std::system(command.c_str()) != 0) return std::nullopt;  // NOLINT(bugprone-command-processor): our own words alone
   CyclictestResult result;
   try {
     std::ifstream file(answer);

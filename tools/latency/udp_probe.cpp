@@ -69,7 +69,7 @@ void UdpProbe::stop() {
 }
 
 void UdpProbe::measure(int socket, double tick_s) {
-  std::mt19937 random(1);
+  std::mt19937 random(1);  // NOLINT(bugprone-random-generator-seed): the same pauses in every run
   std::uniform_real_distribution<double> pause_s(0.0, tick_s);
   std::array<unsigned char, io::udp::largest_reply_bytes> reply{};
   for (std::uint32_t sequence = 1; !stop_.load(std::memory_order_relaxed); ++sequence) {

@@ -49,7 +49,8 @@ std::array<double, 4> power_W(std::string_view motion, double speed_m_per_s) {
 Reciprocation closest_reciprocation(std::string_view motion, const std::array<double, 4>& wanted_J) {
   Reciprocation best;
   double least = 1e300;
-  for (double speed = 0.02; speed < 0.1201; speed += 0.0025) {
+  for (int step = 8; step <= 48; ++step) {
+    const double speed = 0.0025 * step;
     const auto power = power_W(motion, speed);
     double first = 0.0, second = 0.0;  // the duration that is best in relative terms
     for (std::size_t i = 0; i < 4; ++i) {

@@ -57,14 +57,16 @@ Grid frequencies() {
 
 Grid torque_limits() {
   Grid grid;
-  for (double limit = 0.08; limit < 4.0; limit *= 1.12) grid.push_back({limit});
+  for (double limit = 0.08; limit < 4.0; limit *= 1.12)  // NOLINT(bugprone-float-loop-counter): the last is of no matter
+    grid.push_back({limit});
   return grid;
 }
 
 Grid spots() {
   Grid grid;
   for (const double width : {0.002, 0.006})
-    for (double at = -0.075; at <= 0.0751; at += width) grid.push_back({at, width});
+    for (double at = -0.075; at <= 0.0751; at += width)  // NOLINT(bugprone-float-loop-counter): the last is inside by 0.1 mm
+      grid.push_back({at, width});
   return grid;
 }
 
