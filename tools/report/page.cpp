@@ -14,29 +14,6 @@ using Json = nlohmann::json;
 
 constexpr std::size_t longest_list = 64;
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string shown(const Json& value) {
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   if (value.is_string()) return escaped(value.get<std::string>());
@@ -123,16 +100,45 @@ std::string in_script(const Json& value) {
 
 }  // namespace
 
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
 std::string report_page(const Json& json, const std::string& title) {
   const Json figures =
       json.is_object() && json.contains("figures") && json["figures"].is_array() ? json["figures"] : Json::array();
+  return page_with_figures(
+      title, "", figures,
+      "<section id=\"numbers\">" + section(json.is_object() ? json : Json{{"values", json}}, 0) + "</section>");
+}
+
+std::string page_with_figures(const std::string& title, const std::string& above, const Json& figures,
+                              const std::string& below) {
   std::string page =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>";
   page += escaped(title) + "</title><style>" + std::string(report_style) + "</style></head><body><header><h1>" +
           escaped(title) + "</h1><p>Drag to zoom, double-click for everything, click a name to hide it.</p></header>";
-  page += "<main><section id=\"figures\"></section><section id=\"numbers\">" +
-          section(json.is_object() ? json : Json{{"values", json}}, 0) + "</section></main>";
+  page += "<main>" + above + "<section id=\"figures\"></section>" + below + "</main>";
   page += "<script type=\"application/json\" id=\"data\">" + in_script(figures) + "</script><script>" +
           std::string(report_script) + "</script></body></html>\n";
   return page;
