@@ -23,6 +23,25 @@ inline void set_control(AxisRequest& request, std::uint16_t control) noexcept FE
   request.fault_reset = (control & control_bit::fault_reset) != 0;
 }
 
+/// A machine tool's auxiliary functions. The spindle stands where neither of its bits is set, or both.
+namespace machine_bit {
+inline constexpr unsigned clockwise = 1U << 0, counterclockwise = 1U << 1;  ///< M3, M4
+inline constexpr unsigned mist = 1U << 2, flood = 1U << 3;                  ///< M7, M8
+}  // namespace machine_bit
+
+[[nodiscard]] inline MachineRequest machine_request(double speed_rad_per_s, unsigned bits,
+                                                    double depth_of_cut_m) noexcept FEEDTWIN_REALTIME {
+  const unsigned turn = bits & (machine_bit::clockwise | machine_bit::counterclockwise);
+  MachineRequest request;
+  request.spindle_speed_rad_per_s = turn == machine_bit::clockwise          ? speed_rad_per_s
+                                    : turn == machine_bit::counterclockwise ? -speed_rad_per_s
+                                                                            : 0.0;
+  request.pump = (bits & (machine_bit::mist | machine_bit::flood)) != 0;
+  request.depth_of_cut_m = depth_of_cut_m;
+  return request;
+}
+inline constexpr double rad_per_s_per_rpm = 0.10471975511965977;
+
 /// As in CiA 402, bits 0-3, 5, 6.
 [[nodiscard]] inline std::uint16_t state_code(DriveState state) noexcept FEEDTWIN_REALTIME {
   switch (state) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "plant/machine/engagement.h"
 #include "plant/realtime.h"
 
 namespace feedtwin::io {
@@ -37,6 +38,16 @@ struct AxisRequest {
   newer.superseded = older.superseded + 1;
   return newer;
 }
+
+/// What the controller of a whole machine tool wants beside the torques of its axes. It acts while an axis is enabled and
+/// none is in fault.
+struct MachineRequest {
+  double spindle_speed_rad_per_s = 0.0;  ///< S with M3; negative with M4; 0 with M5
+  bool pump = false;                     ///< M7, M8; off with M9
+  double depth_of_cut_m = 0.0;           ///< of a slot as wide as the cutter, where the tool stands over the block
+  bool path_engagement = false;          ///< the controller knows its path, and `engagement` is what it meets there
+  plant::Engagement engagement{};
+};
 
 /// What the loop makes of an axis's requests (rt/command_guard), in the order of increasing alarm.
 enum class DriveState : std::uint8_t { disabled, enabled, quick_stop, fault };
@@ -97,6 +108,9 @@ class Port {
   /// Drain what has come, at most a bounded number of frames, and keep the newest request of each axis.
   /// @return a bit for each axis that has a new one.
   virtual std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME = 0;
+  /// The newest request for the machine that the axes belong to. Wait-free.
+  /// @return false if nothing has changed, or if this port has none: `newest` stays as it is.
+  virtual bool receive_machine(MachineRequest& /*newest*/) noexcept FEEDTWIN_REALTIME { return false; }
   /// Give out the tick's result.
   virtual void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME = 0;
 

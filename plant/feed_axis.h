@@ -42,7 +42,7 @@ class FeedAxis {
   /// Torque and force sensor at this instant with `acting` as the command, as a recording samples them at the start of a
   /// tick. Costs a third of a step, so only where it is asked for. Wait-free.
   [[nodiscard]] ForceSignals force_sensors(const AxisCommand& acting) const noexcept FEEDTWIN_REALTIME;
-  [[nodiscard]] AxisEnergy energy() const noexcept;
+  [[nodiscard]] AxisEnergy energy() const noexcept FEEDTWIN_REALTIME;
   [[nodiscard]] std::int64_t clipped_inputs() const noexcept { return clipped_inputs_; }
 
   /// Put the axis somewhere, at the given velocity, bristles relaxed. Set-up only.

@@ -11,6 +11,7 @@
 #include "rt/command_guard.h"
 #include "rt/event.h"
 #include "rt/spsc_ring.h"
+#include "rt/stepped_plant.h"
 #include "rt/tick_clock.h"
 #include "rt/tick_record.h"
 #include "rt/tick_stats.h"
@@ -30,6 +31,9 @@ struct LoopSettings {
 class PlantLoop {
  public:
   /// Set-up. @param commanding the port whose requests act; @param listening further ports, which get the reports only.
+  PlantLoop(SteppedPlant& plant, io::Port& commanding, std::vector<io::Port*> listening, TickClock& clock,
+            const LoopSettings& settings);
+  /// The same for axes that know nothing of each other.
   PlantLoop(std::vector<plant::FeedAxis>& axes, io::Port& commanding, std::vector<io::Port*> listening, TickClock& clock,
             const LoopSettings& settings);
 
@@ -49,17 +53,26 @@ class PlantLoop {
   [[nodiscard]] std::uint64_t heartbeat() const noexcept { return heartbeat_.load(std::memory_order_relaxed); }
 
  private:
-  void serve_axis(std::size_t i, bool fresh, std::int64_t now_ns) noexcept FEEDTWIN_REALTIME;
+  PlantLoop(std::unique_ptr<SteppedPlant> own, SteppedPlant* plant, io::Port& commanding, std::vector<io::Port*> listening,
+            TickClock& clock, const LoopSettings& settings);
+  /// The axis' torque of this tick, and the row of the log as it stands before the torque acts.
+  void command_axis(std::size_t i, bool fresh, std::int64_t now_ns) noexcept FEEDTWIN_REALTIME;
+  void report_axis(std::size_t i) noexcept FEEDTWIN_REALTIME;
+  /// The request that acts: a spindle does not go on turning when its axes' controller has gone.
+  [[nodiscard]] io::MachineRequest machine_in_force() const noexcept FEEDTWIN_REALTIME;
   void note(EventKind kind, std::int32_t axis, double value) noexcept FEEDTWIN_REALTIME;
   void watch_end_stops(std::size_t i) noexcept FEEDTWIN_REALTIME;
 
-  std::vector<plant::FeedAxis>& axes_;
+  std::unique_ptr<SteppedPlant> own_;
+  SteppedPlant& plant_;
   io::Port& commanding_;
   std::vector<io::Port*> listening_;
   TickClock& clock_;
   LoopSettings settings_;
   std::vector<CommandGuard> guards_;
   std::vector<io::AxisRequest> requests_;
+  io::MachineRequest machine_request_;
+  std::vector<double> torques_Nm_;
   std::vector<io::AxisReport> reports_;
   std::vector<AxisRecord> rows_;
   SpscRing<AxisRecord> records_;

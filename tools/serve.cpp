@@ -49,9 +49,13 @@ int run(const Options& options) {
 
 std::function<int()> prepare_serve(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("CONFIG", options->config, "server configuration or axis file (TOML); without it, the source's axis");
-  app.add_option("--duration", options->duration_s, "run time in s; 0: until interrupted")->check(CLI::Range(0.0, 1e9));
-  app.add_option("--controller", options->controller, "who commands: loopback, modbus, can, udp");
+  app.add_option("CONFIG", options->config,
+                 "server configuration, axis or machine file (TOML); without it, the source's axis");
+  app.add_option("--duration", options->duration_s,
+                 "run time in s; 0: until interrupted, or to the end of a machine's program")
+      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--controller", options->controller,
+                 "who commands: loopback, modbus, can, udp or a port's name; program, for a machine file");
   app.add_option("--log", options->log, "recording of every tick (CSV), with its events beside it")->type_name("FILE");
   add_json_option(app, options->json);
   return [options] { return run(*options); };

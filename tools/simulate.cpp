@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "tools/json_option.h"
@@ -14,15 +15,19 @@
 namespace feedtwin::tools {
 namespace {
 
+constexpr double default_duration_s = 10.0;
+
 struct Options {
   std::string config, log = "simulated.csv", json;
-  double duration_s = 10.0;
+  std::optional<double> duration_s;
 };
 
 int run(const Options& options) {
-  ServerConfig config = read_server_config({.path = options.config, .controller = "loopback", .with_ports = false});
+  ServerConfig config = read_server_config({.path = options.config, .with_ports = false, .commanded_inside = true});
   config.log_path = options.log;
-  const auto ticks = static_cast<std::uint64_t>(std::llround(options.duration_s / config.loop.tick_s));
+  const bool whole_program = config.machine && !options.duration_s;
+  const double duration_s = options.duration_s.value_or(default_duration_s);
+  const auto ticks = whole_program ? 0 : static_cast<std::uint64_t>(std::llround(duration_s / config.loop.tick_s));
   PlantRun plant(std::move(config), ticks);
   plant.run_off_line();
   const RunSummary summary = plant.summary("simulate");
@@ -35,10 +40,10 @@ int run(const Options& options) {
 
 std::function<int()> prepare_simulate(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("CONFIG", options->config, "server configuration or axis file (TOML); without it, the source's axis");
-  app.add_option("--duration", options->duration_s, "simulated time in s")
-      ->check(CLI::Range(1e-3, 1e6))
-      ->capture_default_str();
+  app.add_option("CONFIG", options->config,
+                 "server configuration, axis or machine file (TOML); without it, the source's axis");
+  app.add_option("--duration", options->duration_s, "simulated time in s; without it 10 s, or to a program's end")
+      ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--log,--out", options->log, "where the recording goes")->type_name("FILE")->capture_default_str();
   add_json_option(app, options->json);
   return [options] { return run(*options); };

@@ -36,6 +36,9 @@ class CanPort final : public Port {
   void open() override;
   void close() noexcept override;
   std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME override;
+  bool receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME override {
+    return !devices_.empty() && devices_.front()->take_machine_request(newest);
+  }
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME override;
   bool wait_for_request(std::int64_t until_ns) noexcept override;
   [[nodiscard]] bool can_step_the_plant() const noexcept override { return true; }

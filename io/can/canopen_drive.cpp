@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "io/can/canopen_node.h"
+#include "io/drive_words.h"
 
 namespace feedtwin::io::can {
 namespace {
 
 constexpr int cyclic_synchronous_torque = 10;
-constexpr std::int64_t guard_margin_ns = 50'000'000;
 /// 6007, abort connection option code.
 enum AbortConnection : int { no_action = 0, to_fault = 1, disable_voltage = 2, to_quick_stop = 3 };
 
@@ -22,11 +22,11 @@ void CanopenNode::step_drive(FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   const auto before = drive_state_.state();
   const auto controlword = static_cast<std::uint16_t>(at(entry_.controlword));
   if (drive_state_.step(controlword, standstill_, stop_options())) {
-    fault_reset_ = true;
+    pending_.fault_reset = true;
     emergency_.clear(objects_, out);
   }
   if (drive_state_.state() != before) {
-    changed_ = true;
+    pending_.changed = true;
     syncs_without_command_ = 0;
   }
   show_status();
@@ -35,14 +35,14 @@ void CanopenNode::step_drive(FrameQueue& out) noexcept FEEDTWIN_REALTIME {
 void CanopenNode::fault(ErrorCode code, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   emergency_.raise(code, objects_, out);
   drive_state_.fault(stop_options());
-  changed_ = true;
+  pending_.changed = true;
   show_status();
 }
 
 void CanopenNode::command_lost(ErrorCode code, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   ++counters_.command_losses;
   syncs_without_command_ = 0;
-  changed_ = true;
+  pending_.changed = true;
   switch (static_cast<int>(at(entry_.abort_option))) {
     case to_fault:
       fault(code, out);
@@ -85,19 +85,18 @@ double CanopenNode::wanted_torque_Nm() noexcept FEEDTWIN_REALTIME {
 }
 
 bool CanopenNode::take_request(AxisRequest& newest) noexcept FEEDTWIN_REALTIME {
-  if (!changed_) return false;
-  changed_ = false;
+  if (!pending_.take(newest, at(entry_.sync_timeout) * 1'000'000)) return false;
   newest.torque_Nm = wanted_torque_Nm();
-  newest.sequence = ++sequence_;
-  newest.arrival_ns = fresh_command_ ? command_ns_ : now_ns_;
-  fresh_command_ = false;
   newest.enable = drive_state_.operating() || drive_state_.braking();
   newest.quick_stop = drive_state_.braking();
-  newest.fault_reset = fault_reset_;
-  fault_reset_ = false;
-  // the drive's own supervision is to act first, so that EMCY says what was missing
-  const std::int64_t timeout_ns = at(entry_.sync_timeout) * 1'000'000;
-  newest.watchdog_ns = timeout_ns > 0 ? timeout_ns + guard_margin_ns : 0;
+  return true;
+}
+
+bool CanopenNode::take_machine_request(MachineRequest& newest) noexcept FEEDTWIN_REALTIME {
+  if (!machine_changed_) return false;
+  machine_changed_ = false;
+  newest = machine_request(rad_per_s_per_rpm * static_cast<double>(at(entry_.spindle_speed)),
+                           static_cast<unsigned>(at(entry_.auxiliary)), 1e-6 * static_cast<double>(at(entry_.depth_of_cut)));
   return true;
 }
 

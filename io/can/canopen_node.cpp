@@ -1,6 +1,7 @@
 // The network side of the node: NMT, SYNC, PDOs, heartbeat, supervision.
 
 #include "io/can/canopen_node.h"
+#include "io/can/identifiers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@ enum NmtCommand : std::uint8_t {
   reset_communication = 0x82
 };
 
-constexpr std::uint16_t nmt_id = 0x000, sync_id = 0x080, sdo_request_id = 0x600, sdo_reply_id = 0x580, heartbeat_id = 0x700;
-constexpr std::uint16_t no_id = 0xFFFF;
-
 /// An axis slower than this stands still: one count in ten ticks of 1 ms.
 constexpr double standstill_counts_per_s = 100.0;
 
@@ -33,7 +31,8 @@ CanopenNode::CanopenNode(const DriveIdentity& drive)
       entry_{entry_of(0x6040, 0), entry_of(0x6041, 0), entry_of(0x6060, 0), entry_of(0x6061, 0), entry_of(0x6071, 0),
              entry_of(0x6072, 0), entry_of(0x60B2, 0), entry_of(0x6074, 0), entry_of(0x6077, 0), entry_of(0x6064, 0),
              entry_of(0x606C, 0), entry_of(0x60FD, 0), entry_of(0x605A, 0), entry_of(0x605E, 0), entry_of(0x6007, 0),
-             entry_of(0x2001, 0), entry_of(0x2002, 0), entry_of(0x1017, 0), entry_of(0x1016, 1)},
+             entry_of(0x2001, 0), entry_of(0x2002, 0), entry_of(0x1017, 0), entry_of(0x1016, 1), entry_of(0x2010, 0),
+             entry_of(0x2011, 0), entry_of(0x2012, 0)},
       objects_(drive) {
   for (int i = 0; i < pdos; ++i) {
     const auto n = static_cast<std::size_t>(i);
@@ -68,7 +67,7 @@ void CanopenNode::send_state(FrameQueue& out) const noexcept FEEDTWIN_REALTIME {
 }
 
 void CanopenNode::accept(const Frame& frame, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
-  now_ns_ = now_ns;
+  pending_.now_ns = now_ns;
   if (frame.id == nmt_id) return network_command(frame, now_ns, out);
   if (frame.id == sync_id) return sync(now_ns, out);
   if (frame.id == sdo_request_id + drive_.node_id) {
@@ -134,7 +133,7 @@ void CanopenNode::reset_application() noexcept FEEDTWIN_REALTIME {
   configure_all();
   sdo_.reset();
   master_.disarm();
-  changed_ = true;
+  pending_.changed = machine_changed_ = true;
 }
 
 void CanopenNode::receive_pdo(Pdo& pdo, const Frame& frame, std::int64_t now_ns,
@@ -162,8 +161,7 @@ bool CanopenNode::use(Pdo& pdo, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   ++counters_.commands;
   const bool command = pdo.mapping.carries(entry_.controlword) || pdo.mapping.carries(entry_.target_torque);
   if (command) {
-    command_ns_ = pdo.time_ns;
-    changed_ = fresh_command_ = true;
+    pending_.command(pdo.time_ns);
   }
   unpack(pdo.mapping, pdo.frame, [&](int entry, std::int64_t value) FEEDTWIN_REALTIME { take(entry, value, out); });
   return command;
@@ -215,7 +213,7 @@ void CanopenNode::transmit(Pdo& pdo, std::int64_t now_ns, FrameQueue& out) noexc
 
 void CanopenNode::report(const AxisReport& axis, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   axis_ = axis;
-  now_ns_ = now_ns;
+  pending_.now_ns = now_ns;
   const double counts_per_m = drive_.encoder_counts_per_rev / drive_.lead_m;
   const double velocity = std::clamp(axis.velocity_m_per_s * counts_per_m, -2147483648.0, 2147483647.0);
   const double wanted_per_mille = std::nearbyint(axis.torque_Nm / drive_.rated_torque_Nm * 1e3);
@@ -227,7 +225,7 @@ void CanopenNode::report(const AxisReport& axis, std::int64_t now_ns, FrameQueue
   objects_.set(entry_.torque, static_cast<std::int64_t>(per_mille));
   objects_.set(entry_.inputs, (axis.at_low_stop ? 1 : 0) | (axis.at_high_stop ? 2 : 0) | (axis.index_passed ? 4 : 0));
   // the plant server's own guard may have taken the torque away
-  if (axis.state == DriveState::fault && axis.sequence == sequence_ && drive_state_.operating())
+  if (axis.state == DriveState::fault && axis.sequence == pending_.sequence && drive_state_.operating())
     fault(ErrorCode::guard, out);
   step_drive(out);
   supervise(now_ns, out);
@@ -252,7 +250,7 @@ void CanopenNode::supervise(std::int64_t now_ns, FrameQueue& out) noexcept FEEDT
     }
   }
   const std::int64_t timeout_ns = at(entry_.sync_timeout) * 1'000'000;
-  const std::int64_t since_ns = std::max(command_ns_, supervised_since_ns_);
+  const std::int64_t since_ns = std::max(pending_.command_ns, supervised_since_ns_);
   if (timeout_ns > 0 && drive_state_.operating() && now_ns - since_ns > timeout_ns)
     command_lost(ErrorCode::rpdo_timeout, out);
 }
@@ -271,41 +269,6 @@ void CanopenNode::encoder_failed(std::int64_t /*now_ns*/, FrameQueue& out) noexc
 
 bool CanopenNode::steps_the_plant(const Frame& frame) const noexcept FEEDTWIN_REALTIME {
   return frame.id == sync_id;
-}
-
-void CanopenNode::publish_ids() noexcept FEEDTWIN_REALTIME {
-  std::size_t n = 0;
-  const auto add = [&](std::uint32_t id)
-                       FEEDTWIN_REALTIME { ids_[n++].store(static_cast<std::uint16_t>(id), std::memory_order_relaxed); };
-  add(nmt_id);
-  add(sync_id);
-  add(sdo_request_id + static_cast<std::uint32_t>(drive_.node_id));
-  const auto consumer = static_cast<std::uint32_t>(at(entry_.heartbeat_consumer));
-  add((consumer & 0xFFFFU) != 0 ? heartbeat_id + (consumer >> 16 & 0x7FU) : no_id);
-  for (const auto& pdo : rpdo_) add(pdo.exists ? pdo.cob_id : no_id);
-  while (n < ids_.size()) add(no_id);
-}
-
-void CanopenNode::listens_to(std::span<std::uint16_t, most_ids> ids) const noexcept {
-  for (std::size_t i = 0; i < ids_.size(); ++i) ids[i] = ids_[i].load(std::memory_order_relaxed);
-}
-
-void CanopenNode::add_counters(const std::string& prefix, std::vector<Counter>& counters) const {
-  const auto add = [&](const char* name, const char* meaning, std::uint64_t value) {
-    counters.push_back({prefix + name, meaning, value, false});
-  };
-  add("syncs", "SYNC messages seen", counters_.syncs);
-  add("commands", "RPDOs used", counters_.commands);
-  add("superseded", "RPDOs overwritten by a newer one before SYNC", counters_.superseded);
-  add("not_operational", "RPDOs that came out of NMT state operational, not used", counters_.not_operational);
-  add("wrong_length", "RPDOs too short for their mapping, not used", counters_.wrong_length);
-  add("refused_values", "values in RPDOs outside their object's limits, not used", counters_.refused_values);
-  add("command_losses", "times that the abort connection option (6007) acted", counters_.command_losses);
-  add("torque_reports_saturated", "actual torques beyond what 6077 can say", counters_.saturated);
-  add("emergencies", "EMCY messages raised", emergency_.raised());
-  add("sdo_transfers", "SDO transfers completed", sdo_.counters().transfers);
-  add("sdo_aborted", "SDO transfers refused", sdo_.counters().aborted);
-  add("sdo_given_up", "SDO transfers left half-done by the master", sdo_.counters().given_up);
 }
 
 }  // namespace feedtwin::io::can

@@ -14,6 +14,7 @@
 #include "io/can/heartbeat.h"
 #include "io/can/object_values.h"
 #include "io/can/pdo.h"
+#include "io/can/pending_request.h"
 #include "io/can/sdo_server.h"
 
 namespace feedtwin::io::can {
@@ -39,6 +40,7 @@ class CanopenNode final : public Device, private SdoObjects {
   void accept(const Frame& frame, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME override;
   void report(const AxisReport& axis, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME override;
   bool take_request(AxisRequest& newest) noexcept FEEDTWIN_REALTIME override;
+  bool take_machine_request(MachineRequest& newest) noexcept FEEDTWIN_REALTIME override;
   void bus_recovered(std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME override;
   void encoder_failed(std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME override;
   [[nodiscard]] bool steps_the_plant(const Frame& frame) const noexcept FEEDTWIN_REALTIME override;
@@ -69,7 +71,7 @@ class CanopenNode final : public Device, private SdoObjects {
   struct Entries {
     int controlword, statusword, mode, mode_shown, target_torque, most_torque, torque_offset, torque_demand, torque,
         position, velocity, inputs, quick_stop_option, fault_option, abort_option, most_missed_syncs, sync_timeout,
-        heartbeat_producer, heartbeat_consumer;
+        heartbeat_producer, heartbeat_consumer, spindle_speed, auxiliary, depth_of_cut;
   };
 
   // SDO
@@ -118,14 +120,10 @@ class CanopenNode final : public Device, private SdoObjects {
   std::array<Pdo, pdos> rpdo_{}, tpdo_{};
 
   AxisReport axis_;
+  PendingRequest pending_;
   bool standstill_ = true;
   bool torque_limited_ = false;
-  bool changed_ = false;      ///< something to tell the plant
-  bool fault_reset_ = false;  ///< to pass on with the next request
-  std::uint32_t sequence_ = 0;
-  std::int64_t now_ns_ = 0;      ///< of the call under way
-  std::int64_t command_ns_ = 0;  ///< arrival of the newest command
-  bool fresh_command_ = false;   ///< the next request is a command; otherwise it is the drive's own doing
+  bool machine_changed_ = false;
   std::int64_t supervised_since_ns_ = 0;
   int syncs_without_command_ = 0;
   std::uint16_t last_statusword_ = 0;

@@ -38,8 +38,8 @@ Abort CanopenNode::sdo_write(std::uint16_t index, std::uint8_t sub,
   if (const auto result = allow(entry, value); result != Abort::ok) return result;
   objects_.set(entry, value);
   if (entry == entry_.controlword || entry == entry_.target_torque) {
-    command_ns_ = now_ns_;
-    fresh_command_ = true;
+    pending_.command_ns = pending_.now_ns;
+    pending_.fresh_command = true;
   }
   written(entry);
   return Abort::ok;
@@ -118,15 +118,20 @@ void CanopenNode::written(int entry) noexcept FEEDTWIN_REALTIME {
     case 0x1017:
       heartbeat_.restart();
       break;
+    case 0x2010:
+    case 0x2011:
+    case 0x2012:
+      machine_changed_ = true;
+      break;
     case 0x6060:
       if (at(entry) != 0) objects_.set(entry_.mode_shown, at(entry));
-      changed_ = true;
+      pending_.changed = true;
       break;
     case 0x6040:
     case 0x6071:
     case 0x6072:
     case 0x60B2:
-      changed_ = true;
+      pending_.changed = true;
       break;
     default:
       break;

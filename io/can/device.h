@@ -28,6 +28,8 @@ class Device {
   virtual void report(const AxisReport& axis, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME = 0;
   /// What the controller wants since the last call. @return false if nothing has changed.
   virtual bool take_request(AxisRequest& newest) noexcept FEEDTWIN_REALTIME = 0;
+  /// The same for the machine that the first axis belongs to.
+  virtual bool take_machine_request(MachineRequest& /*newest*/) noexcept FEEDTWIN_REALTIME { return false; }
   /// The adapter was off the bus and is back.
   virtual void bus_recovered(std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME = 0;
   /// The encoder is found to be broken.

@@ -16,7 +16,8 @@ class HeartbeatProducer {
     next_ns_ = now_ns - next_ns_ < period_ms * 1'000'000 ? next_ns_ + period_ms * 1'000'000 : now_ns + period_ms * 1'000'000;
     return true;
   }
-  void restart() noexcept FEEDTWIN_REALTIME { next_ns_ = 0; }
+  /// @param next_ns when the next one is due; 0: at once
+  void restart(std::int64_t next_ns = 0) noexcept FEEDTWIN_REALTIME { next_ns_ = next_ns; }
 
  private:
   std::int64_t next_ns_ = 0;

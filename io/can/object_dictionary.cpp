@@ -119,6 +119,10 @@ constexpr void add_manufacturer_objects(Table& t) {
   t.add(limited(plain(0x2001, 0, "SYNCs without RPDO before the reaction of 6007", u8, read_write, 3), 0, 255));
   t.add(plain(0x2002, 0, "SYNC timeout while enabled, 0 for none", u16, read_write, 100, Mappable::no, "ms"));
   t.add(of_axis(plain(0x2003, 0, "Ball screw lead", u32, constant, 0, Mappable::no, "nm")));
+  // of the machine tool that the first axis belongs to
+  t.add(plain(0x2010, 0, "Spindle speed", u16, read_write, 0, Mappable::receive, "rpm"));
+  t.add(limited(plain(0x2011, 0, "Auxiliary functions", u8, read_write, 0, Mappable::receive), 0, 15));
+  t.add(plain(0x2012, 0, "Depth of cut of a slot", u16, read_write, 0, Mappable::receive, "um"));
 }
 
 constexpr void add_drive_profile(Table& t) {

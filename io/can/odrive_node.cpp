@@ -25,19 +25,11 @@ constexpr std::uint32_t torque_control = 1;                 // control mode
 constexpr std::uint32_t invalid_state = 0x1, encoder_error = 0x100, watchdog_expired = 0x800, estop_requested = 0x4000,
                         drive_error = 0x40;
 
-/// On a grid of its own; after a pause it starts afresh instead of catching up.
-bool due(std::int64_t now_ns, std::int64_t& next_ns, int period_ms) noexcept FEEDTWIN_REALTIME {
-  if (period_ms <= 0 || now_ns < next_ns) return false;
-  const std::int64_t period_ns = std::int64_t{period_ms} * 1'000'000;
-  next_ns = now_ns - next_ns < period_ns ? next_ns + period_ns : now_ns + period_ns;
-  return true;
-}
-
 }  // namespace
 
 void OdriveNode::start(std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
-  next_encoder_ns_ = now_ns;
-  next_heartbeat_ns_ = now_ns + std::int64_t{settings_.heartbeat_ms} * 1'000'000;
+  encoder_.restart(now_ns);
+  heartbeat_.restart(now_ns + std::int64_t{settings_.heartbeat_ms} * 1'000'000);
   answer(heartbeat, out);
 }
 
@@ -46,7 +38,7 @@ bool OdriveNode::steps_the_plant(const Frame& frame) const noexcept FEEDTWIN_REA
 }
 
 void OdriveNode::accept(const Frame& frame, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
-  now_ns_ = now_ns;
+  pending_.now_ns = now_ns;
   if (frame.id >> 5 != settings_.node_id) return;
   const int code = frame.id & 0x1F;
   if (frame.remote) {
@@ -66,13 +58,13 @@ void OdriveNode::command(int code, const Frame& frame, std::int64_t now_ns) noex
     case set_controller_mode:
       if (frame.length < 8) break;
       torque_control_ = load<std::uint32_t>(frame, 0) == torque_control;
-      changed_ = true;
+      pending_.changed = true;
       return;
     case set_input_torque:
       return set_torque(frame, now_ns);
     case clear_errors:
       errors_ = 0;
-      clear_ = changed_ = true;
+      pending_.fault_reset = pending_.changed = true;
       return;
     default:
       ++counters_.unknown;
@@ -82,11 +74,11 @@ void OdriveNode::command(int code, const Frame& frame, std::int64_t now_ns) noex
 }
 
 void OdriveNode::set_state(std::uint32_t state, std::int64_t now_ns) noexcept FEEDTWIN_REALTIME {
-  changed_ = true;
+  pending_.changed = true;
   if (state == closed_loop_control && errors_ == 0) {
     closed_loop_ = true;
     torque_Nm_ = 0.0F;
-    command_ns_ = now_ns;
+    pending_.command_ns = now_ns;
   } else if (state == idle) {
     closed_loop_ = false;
   } else {
@@ -102,14 +94,13 @@ void OdriveNode::set_torque(const Frame& frame, std::int64_t now_ns) noexcept FE
   }
   ++counters_.commands;
   torque_Nm_ = torque_Nm;
-  command_ns_ = now_ns;
-  changed_ = fresh_command_ = true;
+  pending_.command(now_ns);
 }
 
 void OdriveNode::fail(std::uint32_t error) noexcept FEEDTWIN_REALTIME {
   errors_ |= error;
   closed_loop_ = false;
-  changed_ = true;
+  pending_.changed = true;
 }
 
 void OdriveNode::answer(int code, FrameQueue& out) const noexcept FEEDTWIN_REALTIME {
@@ -148,31 +139,23 @@ void OdriveNode::answer(int code, FrameQueue& out) const noexcept FEEDTWIN_REALT
 
 void OdriveNode::report(const AxisReport& axis, std::int64_t now_ns, FrameQueue& out) noexcept FEEDTWIN_REALTIME {
   axis_ = axis;
-  now_ns_ = now_ns;
+  pending_.now_ns = now_ns;
   const std::int64_t watchdog_ns = std::int64_t{settings_.watchdog_ms} * 1'000'000;
-  if (closed_loop_ && watchdog_ns > 0 && now_ns - command_ns_ > watchdog_ns) {
+  if (closed_loop_ && watchdog_ns > 0 && now_ns - pending_.command_ns > watchdog_ns) {
     ++counters_.watchdog;
     fail(watchdog_expired);
   }
   // the plant server's own guard may have taken the torque away
-  if (closed_loop_ && axis.state == DriveState::fault && axis.sequence == sequence_) fail(drive_error);
-  if (due(now_ns, next_encoder_ns_, settings_.encoder_ms)) answer(encoder_estimates, out);
-  if (due(now_ns, next_heartbeat_ns_, settings_.heartbeat_ms)) answer(heartbeat, out);
+  if (closed_loop_ && axis.state == DriveState::fault && axis.sequence == pending_.sequence) fail(drive_error);
+  if (encoder_.due(now_ns, settings_.encoder_ms)) answer(encoder_estimates, out);
+  if (heartbeat_.due(now_ns, settings_.heartbeat_ms)) answer(heartbeat, out);
 }
 
 bool OdriveNode::take_request(AxisRequest& newest) noexcept FEEDTWIN_REALTIME {
-  if (!changed_) return false;
-  changed_ = false;
+  if (!pending_.take(newest, std::int64_t{settings_.watchdog_ms} * 1'000'000)) return false;
   newest.torque_Nm = closed_loop_ && torque_control_ ? static_cast<double>(torque_Nm_) : 0.0;
-  newest.sequence = ++sequence_;
-  newest.arrival_ns = fresh_command_ ? command_ns_ : now_ns_;
-  fresh_command_ = false;
   newest.enable = closed_loop_;
   newest.quick_stop = false;
-  newest.fault_reset = clear_;
-  clear_ = false;
-  // the drive's own watchdog is to act first, so that its error says so
-  newest.watchdog_ns = settings_.watchdog_ms > 0 ? (std::int64_t{settings_.watchdog_ms} + 50) * 1'000'000 : 0;
   return true;
 }
 

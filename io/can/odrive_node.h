@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "io/can/device.h"
+#include "io/can/heartbeat.h"
+#include "io/can/pending_request.h"
 
 namespace feedtwin::io::can {
 
@@ -51,13 +53,11 @@ class OdriveNode final : public Device {
 
   OdriveSettings settings_;
   AxisReport axis_;
+  PendingRequest pending_;
   std::uint32_t errors_ = 0;
   bool closed_loop_ = false, torque_control_ = true;
   float torque_Nm_ = 0.0F;
-  bool changed_ = false, clear_ = false;
-  bool fresh_command_ = false;  ///< the next request is a torque command; otherwise it is the drive's own doing
-  std::uint32_t sequence_ = 0;
-  std::int64_t now_ns_ = 0, command_ns_ = 0, next_heartbeat_ns_ = 0, next_encoder_ns_ = 0;
+  HeartbeatProducer heartbeat_, encoder_;
   OdriveCounters counters_;
 };
 

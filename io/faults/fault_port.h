@@ -25,6 +25,7 @@ class FaultPort final : public Port {
   void open() override { inner_.open(); }
   void close() noexcept override { inner_.close(); }
   std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME override;
+  bool receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME override { return inner_.receive_machine(newest); }
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME override;
   bool wait_for_request(std::int64_t until_ns) noexcept override { return inner_.wait_for_request(until_ns); }
   [[nodiscard]] bool can_step_the_plant() const noexcept override { return inner_.can_step_the_plant(); }

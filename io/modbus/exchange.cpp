@@ -26,6 +26,14 @@ std::uint64_t Exchange::receive(std::span<AxisRequest> newest) noexcept {
   return fresh;
 }
 
+bool Exchange::receive_machine(MachineRequest& newest) noexcept {
+  const RequestImage& image = requests_.newest();
+  if (image.machine_number == machine_number_seen_) return false;
+  machine_number_seen_ = image.machine_number;
+  newest = image.machine;
+  return true;
+}
+
 void Exchange::send(const TickReport& tick, std::span<const AxisReport> axes) noexcept {
   InputImage& image = inputs_.draft();
   for (std::size_t axis = 0; axis < std::min(axes.size(), static_cast<std::size_t>(axes_)); ++axis)

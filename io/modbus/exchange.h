@@ -18,6 +18,8 @@ namespace feedtwin::io::modbus {
 struct RequestImage {
   std::array<AxisRequest, max_axes> request{};
   std::array<std::uint64_t, max_axes> number{};
+  MachineRequest machine{};
+  std::uint64_t machine_number = 0;
 };
 
 using InputImage = std::array<std::uint16_t, std::size_t{max_axes} * input_stride>;
@@ -31,6 +33,8 @@ class Exchange {
 
   // the tick's side
   std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME;
+  /// After receive(), of the same image.
+  bool receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME;
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME;
 
   // the server's side
@@ -47,6 +51,7 @@ class Exchange {
   int axes_;
   std::array<double, max_axes> rated_torque_Nm_{};
   std::array<std::uint64_t, max_axes> number_seen_{};
+  std::uint64_t machine_number_seen_ = 0;
   Tally superseded_;
   std::atomic<bool> asked_{false};
   std::atomic<std::uint64_t> sends_{0};  ///< the first one comes before the first tick

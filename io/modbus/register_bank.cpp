@@ -64,6 +64,11 @@ void RegisterBank::write(const Request& request, std::int64_t arrival_ns) noexce
     }
     if (request.write.begin <= base + holding::analog_torque) post(axis, arrival_ns);  // not for reserved registers alone
   }
+  const std::size_t end = request.write.begin + request.write.count;
+  if (request.write.begin <= holding::depth_of_cut && end > holding::spindle_speed) {
+    image_.machine = machine_request_from(holding_of(0));
+    ++image_.machine_number;
+  }
   exchange_.requests().draft() = image_;
   exchange_.requests().post();
 }

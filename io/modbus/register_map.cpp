@@ -31,6 +31,11 @@ Integer limited(double value) noexcept FEEDTWIN_REALTIME {
 
 }  // namespace
 
+MachineRequest machine_request_from(std::span<const std::uint16_t, holding_stride> registers) noexcept {
+  return machine_request(rad_per_s_per_rpm * registers[holding::spindle_speed], registers[holding::auxiliary],
+                         1e-6 * registers[holding::depth_of_cut]);
+}
+
 bool torque_is_clipped(std::uint16_t torque_register) noexcept {
   return std::abs(int{signed_of(torque_register)}) > largest_torque;
 }

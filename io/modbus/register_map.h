@@ -10,7 +10,10 @@
 //   2        40003    command sequence, counted up by the controller; 0 if it does not count
 //   3        40004    watchdog time; 0: as configured                           ms
 //   4        40005    torque command as an analog drive has it: writing it sets register 0   32767 = 10 V = rated torque
-//   5..15             reserved, read as written
+//   8        40009    first axis of a machine tool: spindle speed               rpm
+//   9        40010    likewise: auxiliary functions, bits 0 M3, 1 M4, 2 M7, 3 M8
+//   10       40011    likewise: depth of cut of a slot, where the tool is over the block   um
+//   5..15 else        reserved, read as written
 //   2000+k   42001+k  what input register k reads: for function 23, which by the standard reads holding registers
 //
 //   input    classic  meaning                                                   unit
@@ -55,7 +58,16 @@ inline constexpr int input_stride = 32;
 inline constexpr int mirror_begin = 2000;  ///< holding address of the copy of input register 0
 
 namespace holding {
-enum : std::size_t { torque, control, sequence, watchdog, analog_torque };
+enum : std::size_t {
+  torque,
+  control,
+  sequence,
+  watchdog,
+  analog_torque,
+  spindle_speed = 8,
+  auxiliary = 9,
+  depth_of_cut = 10,
+};
 }
 namespace input {
 enum : std::size_t {
@@ -84,6 +96,8 @@ inline constexpr int largest_torque = 10000;  ///< rated torque, in 0.01 %
 /// An axis's request from its first holding registers. `sequence` and `arrival_ns` are left to the caller, who knows them.
 [[nodiscard]] AxisRequest request_from(std::span<const std::uint16_t, holding_stride> registers,
                                        double rated_torque_Nm) noexcept;
+/// A machine's request from the first axis' holding registers.
+[[nodiscard]] MachineRequest machine_request_from(std::span<const std::uint16_t, holding_stride> registers) noexcept;
 [[nodiscard]] bool torque_is_clipped(std::uint16_t torque_register) noexcept;
 /// Analog scale to holding register 0, to the nearest.
 [[nodiscard]] std::uint16_t torque_from_analog(std::uint16_t analog_register) noexcept;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "io/drive_words.h"
@@ -34,6 +35,10 @@ bool decode(std::span<const std::uint8_t> bytes, std::size_t plant_axes, Request
   if (bytes[4] != version || bytes[5] != kind_request || axes < 1 || axes > plant_axes || axes > max_axes) return false;
   if (bytes.size() != request_header_bytes + request_axis_bytes * axes) return false;
 
+  const double speed_rad_per_s = static_cast<double>(get<float>(bytes, 12));
+  const double depth_of_cut_m = static_cast<double>(get<float>(bytes, request_header_bytes + 12));
+  if (!std::isfinite(speed_rad_per_s) || !std::isfinite(depth_of_cut_m)) return false;
+  request.machine = machine_request(speed_rad_per_s, bytes[7], depth_of_cut_m);
   request.sequence = get<std::uint32_t>(bytes, 8);
   request.stamp = get<std::uint64_t>(bytes, 16);
   request.axes = axes;

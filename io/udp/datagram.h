@@ -10,20 +10,21 @@
 //    4  u8    version, 1                                  4  u8    version, 1
 //    5  u8    kind, 1                                     5  u8    kind, 2
 //    6  u8    n, number of axes, from 1                   6  u8    n, number of the plant's axes
-//    7  u8    0                                           7  u8    0
+//    7  u8    auxiliary bits (M3, M4, M7, M8)             7  u8    0
 //    8  u32   sequence, counted up by the controller      8  u32   sequence of the request answered
-//   12  u32   0                                          12  u32   0
+//   12  f32   spindle speed, rad/s                       12  u32   0
 //   16  u64   stamp, the controller's own                16  u64   stamp of the request answered
 //   then for each axis:                                  24  u64   tick
 //    0  f64   torque, N m                                32  u64   missed ticks
 //    8  u16   control bits, as Modbus holding 1          40  i64   input age: from the request's arrival to its use, ns
 //   10  u16   watchdog, ms; 0: as configured             then for each axis:
-//   12  u32   0                                           0  i64   counts
+//   12  f32   first axis: depth of cut, m; else 0         0  i64   counts
 //                                                         8  f64   velocity of the table, m/s
 //                                                        16  f64   actual torque, N m
 //                                                        24  u16   statusword, as Modbus input 4
 //                                                        26  u8[6] 0
 //
+// Spindle, auxiliary bits (io/drive_words.h) and depth of cut are a machine tool's; an axis by itself leaves them at 0.
 // Up to 44 axes a reply fits into one Ethernet frame.
 
 #include <array>
@@ -46,6 +47,7 @@ struct Request {
   std::uint64_t stamp = 0;
   std::size_t axes = 0;
   std::array<AxisRequest, max_axes> axis{};  ///< without sequence and arrival
+  MachineRequest machine{};
 };
 
 /// @return false if this is no request for a plant of so many axes. Wait-free.

@@ -151,8 +151,15 @@ std::uint64_t UdpPort::hand_over(std::span<AxisRequest> newest, std::uint64_t un
     fresh |= std::uint64_t{1} << i;
   }
   have_pending_ = false;
-  reply_due_ = true;
+  reply_due_ = machine_due_ = true;
   return fresh;
+}
+
+bool UdpPort::receive_machine(MachineRequest& newest) noexcept {
+  if (!machine_due_) return false;
+  machine_due_ = false;
+  newest = pending_.machine;
+  return true;
 }
 
 std::uint64_t UdpPort::receive(std::span<AxisRequest> newest) noexcept {

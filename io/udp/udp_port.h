@@ -31,6 +31,7 @@ class UdpPort final : public Port {
   void close() noexcept override;
   /// At most most_datagrams are read; a system call or two.
   std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME override;
+  bool receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME override;
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME override;
   bool wait_for_request(std::int64_t until_ns) noexcept override;
   [[nodiscard]] bool can_step_the_plant() const noexcept override { return true; }
@@ -62,7 +63,7 @@ class UdpPort final : public Port {
   Session session_;
   Request pending_;
   std::int64_t pending_arrival_ns_ = 0;
-  bool have_pending_ = false, reply_due_ = false;
+  bool have_pending_ = false, reply_due_ = false, machine_due_ = false;
   // one byte more than the largest request, so that a longer datagram does not look like one
   std::array<std::uint8_t, largest_request_bytes + 1> buffer_{};
   std::array<std::uint8_t, largest_reply_bytes> reply_{};

@@ -80,7 +80,7 @@ class EffectChain {
     double stored_J = 0.0, lost_J = 0.0;
     double magnitude_J = 0.0;  ///< sum of the magnitudes
   };
-  [[nodiscard]] Work work(const AxisState<double>& state) const noexcept;
+  [[nodiscard]] Work work(const AxisState<double>& state) const noexcept FEEDTWIN_REALTIME;
 
  private:
   struct Link {

@@ -41,7 +41,7 @@ struct MachineCommand {
   double torque_x_Nm = 0.0, torque_y_Nm = 0.0;
   double spindle_speed_rad_per_s = 0.0;  ///< positive clockwise (M3), negative counterclockwise (M4)
   bool pump = false;                     ///< M7, M8
-  Engagement engagement;                 ///< where the cutter meets material
+  Engagement engagement{};               ///< where the cutter meets material
 };
 
 /// Out of the machine at the end of a tick.
@@ -64,8 +64,8 @@ struct MachineEnergy {
   double time_s = 0.0;
 
   [[nodiscard]] double auxiliary_J() const noexcept { return pump_J + controller_J; }
-  [[nodiscard]] double spindle_J() const noexcept { return spindle.electrical_J + spindle.shaft_work_J; }
-  [[nodiscard]] double feed_J() const noexcept {
+  [[nodiscard]] double spindle_J() const noexcept FEEDTWIN_REALTIME { return spindle.electrical_J + spindle.shaft_work_J; }
+  [[nodiscard]] double feed_J() const noexcept FEEDTWIN_REALTIME {
     return x.motor_electrical_J + x.input_work_J + y.motor_electrical_J + y.input_work_J;
   }
   [[nodiscard]] double total_J() const noexcept { return auxiliary_J() + spindle_J() + feed_J(); }
@@ -80,11 +80,11 @@ class Machine {
   /// Advance by one tick. Wait-free.
   const MachineSignals& step(const MachineCommand& command, double tick_s) noexcept FEEDTWIN_REALTIME;
 
-  [[nodiscard]] const MachineSignals& signals() const noexcept { return signals_; }
-  [[nodiscard]] const FeedAxis& x() const noexcept { return x_; }
-  [[nodiscard]] const FeedAxis& y() const noexcept { return y_; }
+  [[nodiscard]] const MachineSignals& signals() const noexcept FEEDTWIN_REALTIME { return signals_; }
+  [[nodiscard]] const FeedAxis& x() const noexcept FEEDTWIN_REALTIME { return x_; }
+  [[nodiscard]] const FeedAxis& y() const noexcept FEEDTWIN_REALTIME { return y_; }
   [[nodiscard]] const MachineParameters& parameters() const noexcept { return parameters_; }
-  [[nodiscard]] MachineEnergy energy() const noexcept;
+  [[nodiscard]] MachineEnergy energy() const noexcept FEEDTWIN_REALTIME;
   /// Ticks in which the tool was pushed into material with the spindle standing: there is no force model for that.
   [[nodiscard]] std::int64_t stalled_ticks() const noexcept { return stalled_ticks_; }
 

@@ -30,7 +30,7 @@ TEST(ExampleConfigurations, EveryKindOfPortHasOneOfItsName) {
     const auto path = examples / (std::string(kind.name) + ".toml");
     ASSERT_TRUE(std::filesystem::exists(path)) << path;
     const auto config = read_server_config({.path = path.string()});
-    EXPECT_TRUE(std::ranges::any_of(config.ports, [&](const auto& port) { return port->name() == kind.name; })) << path;
+    EXPECT_TRUE(std::ranges::any_of(config.ports, [&](const auto& port) { return port.name == kind.name; })) << path;
   }
 }
 

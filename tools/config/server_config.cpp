@@ -12,6 +12,7 @@
 #include "tools/config/axis_file.h"
 #include "tools/config/input_error.h"
 #include "tools/config/toml_settings.h"
+#include "tools/machine/job_keys.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -106,50 +107,96 @@ const io::PortKind* find_kind(std::string_view name) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
+/// The name of a [[port]] table: its key "name", or else its kind.
+std::string port_name(TomlFile& file, std::size_t i) {
+  const std::string table = fmt::format("port[{}]", i);
+  return file.text(table + ".name", file.text(table + ".kind", ""));
+}
+
+void add_port(std::string name, std::unique_ptr<io::Port> port, ServerConfig& config) {
+  config.ports.push_back({std::move(name), std::move(port)});
+}
+
+bool has_port(const ServerConfig& config, std::string_view name) {
+  return std::ranges::any_of(config.ports, [&](const auto& port) { return port.name == name; });
+}
+
 void read_ports(TomlFile& file, bool built_in, ServerConfig& config) {
-  std::vector<std::string> names;
-  for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
+  std::vector<std::string> kinds;
+  for (const auto& kind : io::port_kinds()) kinds.emplace_back(kind.name);
   const auto context = config.context();
   const std::size_t count = file.tables_in("port");
   for (std::size_t i = 0; i < count; ++i) {
     const std::string table = fmt::format("port[{}]", i);
-    const auto name = file.word(table + ".kind", names, "");
-    if (name.empty()) file.fail(table, fmt::format("kind is missing; expected one of {}", fmt::join(names, ", ")));
+    const auto kind = file.word(table + ".kind", kinds, "");
+    if (kind.empty()) file.fail(table, fmt::format("kind is missing; expected one of {}", fmt::join(kinds, ", ")));
+    const std::string name = port_name(file, i);
+    if (name != kind && find_kind(name) != nullptr)
+      file.fail(table + ".name", fmt::format("\"{}\" is the name of another kind of port", name));
+    if (name.empty() || name == "loopback" || name == "program")
+      file.fail(table + ".name", fmt::format("\"{}\" can't be a port's name", name));
+    if (has_port(config, name))
+      file.fail(table, fmt::format("a second port \"{}\": give each a name of its own (name = \"...\")", name));
     TomlSettings settings(file, table);
-    config.ports.push_back(find_kind(name)->make(settings, context));
+    add_port(name, find_kind(kind)->make(settings, context), config);
   }
   // without a word about ports: the two that need no hardware, and the one that is to command
   std::vector<std::string> presets;
   if (built_in || count == 0) presets = {"modbus", "udp"};
-  if (!config.controller.empty() && config.controller != "loopback") presets.push_back(config.controller);
+  presets.push_back(config.controller);
   for (const auto& name : presets) {
-    const bool there = std::ranges::any_of(config.ports, [&](const auto& port) { return port->name() == name; });
     const auto* kind = find_kind(name);
-    if (there || kind == nullptr) continue;
+    if (kind == nullptr || has_port(config, name)) continue;
     TomlSettings settings(file, "preset." + name);
-    config.ports.push_back(kind->make(settings, context));
+    add_port(name, kind->make(settings, context), config);
   }
 }
 
-void read_faults(TomlFile& file, ServerConfig& config) {
+/// Every port that a key may name: of the configuration, of the presets, and what commands from inside.
+std::vector<std::string> controller_names(TomlFile& file, const ServerConfig& config) {
   std::vector<std::string> names{"loopback"};
+  if (config.machine) names.emplace_back("program");
   for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
-  config.faults = faults_from(file, names, config.controller, static_cast<int>(config.axes.size()));
-  for (auto& port : config.ports) {
-    auto own = faults_of(config.faults, port->name());
+  for (std::size_t i = 0; i < file.tables_in("port"); ++i) {
+    if (auto name = port_name(file, i); std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void read_faults(TomlFile& file, ServerConfig& config) {
+  config.faults = faults_from(file, controller_names(file, config), config.controller, static_cast<int>(config.axes.size()));
+  for (auto& [name, port] : config.ports) {
+    auto own = faults_of(config.faults, name);
     if (!own.empty()) port = std::make_unique<io::faults::FaultPort>(std::move(port), std::move(own), config.context());
   }
 }
 
-void choose_controller(const TomlFile& file, const std::optional<std::string>& asked, ServerConfig& config) {
-  std::vector<std::string> names{"loopback"};
-  for (const auto& kind : io::port_kinds()) names.emplace_back(kind.name);
+void choose_controller(TomlFile& file, const std::optional<std::string>& asked, bool inside, ServerConfig& config) {
+  const auto names = controller_names(file, config);
   if (asked) config.controller = *asked;
-  if (config.controller.empty()) config.controller = "modbus";
+  if (inside) config.controller = config.machine ? "program" : "loopback";
+  if (config.controller.empty()) config.controller = config.machine ? "program" : "modbus";
   if (std::ranges::find(names, config.controller) != names.end()) return;
   const auto problem = fmt::format("expected one of {}, found \"{}\"", fmt::join(names, ", "), config.controller);
   if (asked) throw InputError("--controller: " + problem);
   file.fail("server.controller", problem);
+}
+
+/// A machine file makes the plant a machine tool. Its axes are x and y; [controller] is the machine's own.
+void read_machine(TomlFile& file, ServerConfig& config) {
+  if (!is_machine_file(file)) return;
+  if (!config.axes.empty()) file.fail("server.axes", "this file tells of a machine tool, whose axes are [x] and [y]");
+  auto job = std::make_shared<MachineJob>(source_machine());
+  job->name = file.path();
+  apply_known(*job, file);
+  if (file.has("server.period_s")) {
+    job->tick_s = config.loop.tick_s;
+  } else {
+    config.loop.tick_s = job->tick_s;
+  }
+  config.axes = {job->machine.x, job->machine.y};
+  config.axis_sources = {file.path() + " x", file.path() + " y"};
+  config.machine = std::move(job);
 }
 
 }  // namespace
@@ -171,11 +218,12 @@ ServerConfig read_server_config(const ConfigRequest& request) {
   if (!built_in) config.source = request.path;
   read_server(file, config);
   read_axes(file, config);
+  read_machine(file, config);
   if (config.axes.empty()) {
     config.axes.push_back(plant::source_axis());
     config.axis_sources.emplace_back("built in: the source's axis (Table 2)");
   }
-  choose_controller(file, request.controller, config);
+  choose_controller(file, request.controller, request.commanded_inside, config);
   for (std::size_t i = 0; i < config.axes.size(); ++i) {
     const std::size_t tables = file.tables_in("loopback");
     const std::string table = tables > 0 ? fmt::format("loopback[{}]", std::min(i, tables - 1)) : "loopback";

@@ -1,6 +1,7 @@
 #pragma once
 // The configuration of `serve` and `simulate`. An axis file by itself is one already; more keys stand in tables of their
-// own: [server], [loopback], [log], [[port]], [[fault]]. See systemd/feedtwin.toml for all of them.
+// own: [server], [loopback], [log], [[port]], [[fault]]. So is a machine file (systemd/examples/machine.toml). See
+// systemd/feedtwin.toml for all of them.
 
 #include <memory>
 #include <optional>
@@ -18,6 +19,14 @@
 
 namespace feedtwin::tools {
 
+struct MachineJob;
+
+/// A port with the name that the configuration gives it, so that two of one kind can be told apart.
+struct NamedPort {
+  std::string name;
+  std::unique_ptr<io::Port> port;
+};
+
 /// Who sets the pace.
 enum class Pace : std::uint8_t { free_running, lockstep };
 
@@ -30,11 +39,12 @@ struct ServerConfig {
   rt::Overrun overrun = rt::Overrun::skip;
   Pace pace = Pace::free_running;
   std::int64_t lockstep_timeout_ns = 100'000'000;
-  std::string controller;                        ///< "loopback" or the kind of the commanding port
-  std::vector<LoopbackSettings> loopback;        ///< one for each axis
-  std::vector<std::unique_ptr<io::Port>> ports;  ///< made, not yet open
-  std::vector<ConfiguredFault> faults;           ///< on purpose; worked into `ports` already, the loopback's are not
-  std::string log_path;                          ///< empty: no log
+  std::shared_ptr<const MachineJob> machine;  ///< where the plant is a machine tool: its axes are then x and y
+  std::string controller;                     ///< "loopback", "program" or the name of the commanding port
+  std::vector<LoopbackSettings> loopback;     ///< one for each axis
+  std::vector<NamedPort> ports;               ///< made, not yet open
+  std::vector<ConfiguredFault> faults;        ///< on purpose; worked into `ports` already, the loopback's are not
+  std::string log_path;                       ///< empty: no log
 
   [[nodiscard]] io::PortContext context() const;
 };
@@ -43,6 +53,7 @@ struct ConfigRequest {
   std::string path;                                      ///< empty: the built-in configuration
   std::optional<std::string> controller = std::nullopt;  ///< overrides the file's
   bool with_ports = true;                                ///< false: off line, no port is made (their keys are still checked)
+  bool commanded_inside = false;  ///< the loopback controller commands, or the machine's own, whatever the file says
 };
 
 /// Throws InputError.

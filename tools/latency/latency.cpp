@@ -67,7 +67,7 @@ nlohmann::json measure_input_to_output(const Options& options) {
   config.controller = "udp";
   auto port = std::make_unique<io::udp::UdpPort>(io::udp::UdpSettings{.port = 0}, config.context());
   const io::udp::UdpPort& udp = *port;
-  config.ports.push_back(std::move(port));
+  config.ports.push_back({"udp", std::move(port)});
   const double tick_s = config.loop.tick_s;
   const rt::RtSettings settings = config.real_time;
   PlantRun plant(std::move(config), static_cast<std::uint64_t>(std::llround(std::min(options.duration_s, 5.0) / tick_s)));

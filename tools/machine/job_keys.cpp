@@ -95,7 +95,7 @@ std::span<const JobKey> job_keys() noexcept {
   return table;
 }
 
-void apply(MachineJob& job, TomlFile& file) {
+void apply_known(MachineJob& job, TomlFile& file) {
   apply_axis(job.machine.x, file, "x");
   apply_axis(job.machine.y, file, "y");
   if (file.has("spindle.motor")) {  // before single keys of the spindle
@@ -123,7 +123,18 @@ void apply(MachineJob& job, TomlFile& file) {
     job.program_text = read_whole_file(job.program_name);
   }
   check(job, file);
+}
+
+void apply(MachineJob& job, TomlFile& file) {
+  apply_known(job, file);
   file.reject_unknown();
+}
+
+bool is_machine_file(const TomlFile& file) {
+  for (const char* key : {"program", "x", "y", "spindle", "auxiliary", "tool", "cutting", "workpiece"}) {
+    if (file.has(key)) return true;
+  }
+  return false;
 }
 
 MachineJob read_job(const std::string& path) {

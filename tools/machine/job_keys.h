@@ -20,8 +20,12 @@ struct JobKey {
 /// Numbers; x.KEY and y.KEY of plant/parameter_table and a few words (apply) come on top.
 [[nodiscard]] std::span<const JobKey> job_keys() noexcept;
 
-/// Takes every key that the file holds; throws InputError on an unknown one.
+/// Takes every key of a machine that the file holds; further keys are left to the caller (TomlFile::reject_unknown).
+void apply_known(MachineJob& job, TomlFile& file);
+/// The same; throws InputError on an unknown key.
 void apply(MachineJob& job, TomlFile& file);
+/// True for a file that tells of a machine tool, not of an axis.
+[[nodiscard]] bool is_machine_file(const TomlFile& file);
 
 /// The built-in machine changed by a file; the built-in one for an empty path.
 [[nodiscard]] MachineJob read_job(const std::string& path);

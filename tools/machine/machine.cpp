@@ -21,6 +21,7 @@
 #include "tools/machine/machine_run.h"
 #include "tools/machine/reproduction.h"
 #include "tools/machine/sweep.h"
+#include "tools/ranks/ranks.h"
 #include "tools/verb.h"
 
 namespace feedtwin::tools {
@@ -57,6 +58,7 @@ int sweep(const MachineJob& job, const Options& options) {
   std::vector<SweepAxis> axes;
   for (const auto& text : options.sweep) axes.push_back(read_sweep_axis(text));
   const auto points = run_sweep(job, axes, options.threads);
+  if (!Ranks::world().first()) return done;  // every rank has the points; one tells of them
   for (const auto& axis : axes) fmt::print("{:>28} ", axis.key);
   fmt::print("{:>10} {:>10} {:>10} {:>12} {:>12}\n", "time_s", "total_J", "mrr_mm3/s", "SEC_J/mm3", "contour_um");
   for (const auto& point : points) {
@@ -120,12 +122,14 @@ std::function<int()> prepare_machine(CLI::App& app) {
   app.add_option("CONFIG", options->config, "machine file (TOML); without it, the source's machine and its channel");
   app.add_option("--program", options->program, "G-code to run instead of the machine file's")->type_name("FILE");
   app.add_option("--set", options->set, "change one key of the machine; with --compare, of B alone; --keys lists them")
-      ->type_name("KEY=VALUE");
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);  // one value each, so that CONFIG may follow
   app.add_option("--compare", options->compare, "a second machine file, or \"same\" for this one changed by --set")
       ->type_name("FILE");
   app.add_option("--sweep", options->sweep,
                  "run over values of a key; given again, over the grid; process.mrr_mm3_per_s=1:10:10 fits SEC")
-      ->type_name("KEY=FROM:TO:N");
+      ->type_name("KEY=FROM:TO:N")
+      ->allow_extra_args(false);
   app.add_option("--threads", options->threads, "for a sweep")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--log,--out", options->log, "write the recording, one row a tick (CSV)")->type_name("FILE");
   app.add_option("--reproduce", options->reproduce,

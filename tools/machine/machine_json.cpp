@@ -22,14 +22,19 @@ void print_power(const char* when, const ComponentPower& p) {
 
 }  // namespace
 
-nlohmann::json to_json(const MachineResult& r) {
-  nlohmann::json energy, json;
-  for (const auto& [name, joules] : energy_by_component(r.energy)) energy[name] = joules;
-  energy["auxiliary"] = r.energy.auxiliary_J();
-  energy["spindle"] = r.energy.spindle_J();
-  energy["feed_drives"] = r.energy.feed_J();
-  energy["total"] = r.energy.total_J();
-  json["energy_J"] = energy;
+nlohmann::json machine_energy_json(const plant::MachineEnergy& e) {
+  nlohmann::json energy;
+  for (const auto& [name, joules] : energy_by_component(e)) energy[name] = joules;
+  energy["auxiliary"] = e.auxiliary_J();
+  energy["spindle"] = e.spindle_J();
+  energy["feed_drives"] = e.feed_J();
+  energy["total"] = e.total_J();
+  return energy;
+}
+
+nlohmann::json to_json(const MachineTotals& r) {
+  nlohmann::json json;
+  json["energy_J"] = machine_energy_json(r.energy);
   json["energy_balance_error"] = r.energy.balance_error();
   json["time_s"] = r.time_s;
   json["cutting_time_s"] = r.cutting_time_s;

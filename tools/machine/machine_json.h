@@ -10,7 +10,9 @@
 
 namespace feedtwin::tools {
 
-[[nodiscard]] nlohmann::json to_json(const MachineResult& result);
+/// By component and by group, J.
+[[nodiscard]] nlohmann::json machine_energy_json(const plant::MachineEnergy& energy);
+[[nodiscard]] nlohmann::json to_json(const MachineTotals& result);
 [[nodiscard]] nlohmann::json to_json(const SpecificEnergyFit& fit);
 [[nodiscard]] nlohmann::json to_json(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points);
 

@@ -8,7 +8,11 @@
 
 namespace feedtwin::tools {
 
-/// Throws InputError when it can't be written.
+/// The columns of a row of the machine, and such a row, without a line end.
+[[nodiscard]] std::string machine_columns();
+[[nodiscard]] std::string machine_row(const MachineSample& sample);
+
+/// All rows, with reference and contour error besides. Throws InputError when it can't be written.
 void write_machine_recording(const std::string& path, const std::vector<MachineSample>& samples);
 
 }  // namespace feedtwin::tools

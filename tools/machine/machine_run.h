@@ -29,7 +29,8 @@ struct MachineSample {
   bool pump_on, cutting;
 };
 
-struct MachineResult {
+/// What a run comes to.
+struct MachineTotals {
   plant::MachineEnergy energy;
   double time_s = 0.0, cutting_time_s = 0.0;
   double contour_peak_m = 0.0, contour_rms_m = 0.0;
@@ -39,7 +40,6 @@ struct MachineResult {
   std::int64_t clipped_inputs = 0, stalled_ticks = 0;
   std::uint64_t ticks = 0;
   double wall_s = 0.0;
-  std::vector<MachineSample> samples;
 
   [[nodiscard]] double removal_rate_m3_per_s() const noexcept {
     return cutting_time_s > 0.0 ? energy.removed_m3 / cutting_time_s : 0.0;
@@ -48,6 +48,10 @@ struct MachineResult {
   [[nodiscard]] double specific_energy_J_per_m3() const noexcept {
     return energy.removed_m3 > 0.0 ? energy.total_J() / energy.removed_m3 : 0.0;
   }
+};
+
+struct MachineResult : MachineTotals {
+  std::vector<MachineSample> samples;
 };
 
 /// The program interpreted, planned and matched with the workpiece. Throws InputError naming the program's line and column.

@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <mutex>
+#include <span>
 #include <thread>
+#include <type_traits>
 
 #include "tools/config/input_error.h"
 #include "tools/machine/job_keys.h"
+#include "tools/ranks/ranks.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -52,6 +57,34 @@ std::vector<double> values_at(const std::vector<SweepAxis>& axes, std::size_t in
   return values;
 }
 
+std::string what_went_wrong(const std::exception_ptr& failure) {
+  if (!failure) return "";
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+/// Every rank gives its points to the others; point i is of rank i modulo their number.
+void share(std::vector<SweepPoint>& points, const std::exception_ptr& failure, const Ranks& ranks) {
+  static_assert(std::is_trivially_copyable_v<MachineTotals>, "it travels as bytes");
+  if (ranks.size() == 1) {
+    if (failure) std::rethrow_exception(failure);
+    return;
+  }
+  for (const auto& error : ranks.gathered(what_went_wrong(failure))) {
+    if (!error.empty()) throw InputError(error);
+  }
+  const auto stride = static_cast<std::size_t>(ranks.size());
+  std::vector<MachineTotals> mine;
+  for (auto i = static_cast<std::size_t>(ranks.rank()); i < points.size(); i += stride) mine.push_back(points[i].result);
+  const auto parts = ranks.gathered(std::as_bytes(std::span(mine)));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::memcpy(&points[i].result, parts[i % stride].data() + i / stride * sizeof(MachineTotals), sizeof(MachineTotals));
+  }
+}
+
 }  // namespace
 
 SweepAxis read_sweep_axis(const std::string& text) {
@@ -78,15 +111,17 @@ std::vector<SweepPoint> run_sweep(const MachineJob& job, const std::vector<Sweep
     count *= axis.values.size();
     if (count > most_points) throw InputError("--sweep", 0, "", "more than a million points");
   }
+  const Ranks& ranks = Ranks::world();
+  const auto rank = static_cast<std::size_t>(ranks.rank()), stride = static_cast<std::size_t>(ranks.size());
   std::vector<SweepPoint> points(count);
-  std::atomic<std::size_t> next = 0, done = 0;
+  for (std::size_t i = 0; i < count; ++i) points[i].values = values_at(axes, i);
+  std::atomic<std::size_t> next = rank, done = 0;
   std::exception_ptr failure;
   std::mutex failing;
   const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
+    for (std::size_t i = next.fetch_add(stride); i < count; i = next.fetch_add(stride)) {
       try {
         MachineJob point = job;
-        points[i].values = values_at(axes, i);
         for (std::size_t a = 0; a < axes.size(); ++a) {
           apply_setting(point, fmt::format("{}={:.17g}", axes[a].key, points[i].values[a]));
         }
@@ -96,15 +131,16 @@ std::vector<SweepPoint> run_sweep(const MachineJob& job, const std::vector<Sweep
         if (!failure) failure = std::current_exception();
         next = count;
       }
-      const std::size_t finished = ++done;
-      if (count >= 20 && finished % (count / 20) == 0) std::fprintf(stderr, "sweep: %zu of %zu\n", finished, count);
+      const std::size_t finished = stride * ++done;
+      if (ranks.first() && count >= 20 && finished % std::max<std::size_t>(stride, count / 20) < stride)
+        std::fprintf(stderr, "sweep: %zu of %zu\n", std::min(finished, count), count);
     }
   };
   std::vector<std::jthread> pool;
   for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
   work();
   pool.clear();
-  if (failure) std::rethrow_exception(failure);
+  share(points, failure, ranks);
   return points;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A job over a grid of parameter values, on all cores, and the law of specific energy over removal rate.
+// A job over a grid of parameter values, on all cores and all MPI ranks, and the law of specific energy over removal rate.
 
 #include <cstddef>
 #include <string>
@@ -20,10 +20,11 @@ struct SweepAxis {
 
 struct SweepPoint {
   std::vector<double> values;  ///< one an axis
-  MachineResult result;
+  MachineTotals result;
 };
 
-/// Every combination, the last axis fastest. Reports progress on standard error.
+/// Every combination, the last axis fastest. Reports progress on standard error. Under mpirun the ranks share the points,
+/// each gets them all, and an error of one is thrown at every one.
 [[nodiscard]] std::vector<SweepPoint> run_sweep(const MachineJob& job, const std::vector<SweepAxis>& axes, unsigned threads);
 
 /// SEC = a / MRR + b, least squares in SEC (the source's Eq. 15; Diaz et al. 2011).

@@ -14,23 +14,41 @@ namespace feedtwin::tools {
 
 PlantRun::PlantRun(ServerConfig config, std::uint64_t ticks) : config_(std::move(config)) {
   config_.loop.ticks = ticks;
-  for (const auto& parameters : config_.axes) axes_.emplace_back(parameters);
+  if (config_.machine) {
+    machine_ = std::make_unique<rt::MachinePlant>(config_.machine->machine, config_.machine->block,
+                                                  config_.log_path.empty() ? 0 : config_.loop.record_capacity);
+  } else {
+    for (const auto& parameters : config_.axes) axes_.emplace_back(parameters);
+    plant_of_axes_ = std::make_unique<rt::AxesPlant>(axes_);
+  }
+  if (config_.controller == "program") {
+    program_ = std::make_unique<ProgramPort>(*config_.machine);
+    if (ticks == 0) config_.loop.ticks = program_->ticks();
+  }
   if (config_.controller == "loopback") loopback_ = std::make_unique<LoopbackPort>(config_.loopback, config_.context());
-  if (auto own = faults_of(config_.faults, "loopback"); loopback_ && !own.empty()) {
-    faulty_loopback_ = std::make_unique<io::faults::FaultPort>(*loopback_, std::move(own), config_.context());
+  if (auto own = faults_of(config_.faults, config_.controller); inner_controller() != nullptr && !own.empty()) {
+    faulty_inner_ = std::make_unique<io::faults::FaultPort>(*inner_controller(), std::move(own), config_.context());
   }
   make_log();
-  for (const auto& port : config_.ports) {
+  for (const auto& [name, port] : config_.ports) {
     try {
       port->open();
     } catch (const io::PortError& error) {
-      throw InputError(fmt::format("port {}: {}", port->name(), error.what()));
+      throw InputError(fmt::format("port {}: {}", name, error.what()));
     }
   }
 }
 
 PlantRun::~PlantRun() {
-  for (const auto& port : config_.ports) port->close();
+  for (const auto& [name, port] : config_.ports) port->close();
+}
+
+rt::SteppedPlant& PlantRun::plant() {
+  return machine_ ? static_cast<rt::SteppedPlant&>(*machine_) : *plant_of_axes_;
+}
+
+const plant::FeedAxis& PlantRun::axis(std::size_t i) const {
+  return machine_ ? machine_->axis(i) : axes_[i];
 }
 
 void PlantRun::make_log() {
@@ -39,20 +57,30 @@ void PlantRun::make_log() {
   settings.tick_s = config_.loop.tick_s;
   settings.late_us = config_.loop.late_us;
   settings.with_forces = config_.loop.record_forces;
-  for (const auto& axis : axes_) settings.m_per_count.push_back(axis.encoder().resolution_m());
+  for (std::size_t i = 0; i < config_.axes.size(); ++i) settings.m_per_count.push_back(axis(i).encoder().resolution_m());
+  settings.machine = machine_.get();
   if (loopback_) {
     settings.reference_m = [port = loopback_.get()](std::size_t axis, std::uint64_t tick) {
+      return port->reference_m(axis, tick);
+    };
+  } else if (program_) {
+    settings.reference_m = [port = program_.get()](std::size_t axis, std::uint64_t tick) {
       return port->reference_m(axis, tick);
     };
   }
   log_ = std::make_unique<RunLog>(settings);
 }
 
+io::Port* PlantRun::inner_controller() {
+  if (loopback_) return loopback_.get();
+  return program_.get();
+}
+
 io::Port& PlantRun::commanding_port() {
-  if (faulty_loopback_) return *faulty_loopback_;
-  if (loopback_) return *loopback_;
-  for (const auto& port : config_.ports) {
-    if (port->name() == config_.controller) return *port;
+  if (faulty_inner_) return *faulty_inner_;
+  if (io::Port* inner = inner_controller(); inner != nullptr) return *inner;
+  for (const auto& [name, port] : config_.ports) {
+    if (name == config_.controller) return *port;
   }
   throw InputError("controller " + config_.controller + ": no such port is configured");
 }
@@ -60,10 +88,10 @@ io::Port& PlantRun::commanding_port() {
 void PlantRun::make_loop(rt::TickClock& clock) {
   io::Port& commanding = commanding_port();
   std::vector<io::Port*> listening;
-  for (const auto& port : config_.ports) {
+  for (const auto& [name, port] : config_.ports) {
     if (port.get() != &commanding) listening.push_back(port.get());
   }
-  loop_ = std::make_unique<rt::PlantLoop>(axes_, commanding, listening, clock, config_.loop);
+  loop_ = std::make_unique<rt::PlantLoop>(plant(), commanding, listening, clock, config_.loop);
 }
 
 void PlantRun::run_in_real_time(std::atomic<bool>& stop) {
@@ -93,21 +121,21 @@ void PlantRun::run_in_real_time(std::atomic<bool>& stop) {
   show_progress(stop, ended);
   real_time.join();
   settings_.insert(settings_.end(), thread_settings.begin(), thread_settings.end());
-  for (const auto& port : config_.ports) port->close();
+  for (const auto& [name, port] : config_.ports) port->close();
   note_port_events();
   log_->finish();
 }
 
-std::vector<io::Port*> PlantRun::reporting_ports() const {
-  std::vector<io::Port*> ports;
-  for (const auto& port : config_.ports) ports.push_back(port.get());
-  if (faulty_loopback_) ports.push_back(faulty_loopback_.get());
+std::vector<PlantRun::Reporting> PlantRun::reporting_ports() const {
+  std::vector<Reporting> ports;
+  for (const auto& [name, port] : config_.ports) ports.push_back({name, port.get()});
+  if (faulty_inner_) ports.push_back({config_.controller, faulty_inner_.get()});
   return ports;
 }
 
 void PlantRun::note_port_events() {
-  for (auto* port : reporting_ports()) {
-    for (const auto& event : port->take_events()) log_->note(event.time_s, fmt::format("{}: {}", port->name(), event.text));
+  for (const auto& [name, port] : reporting_ports()) {
+    for (const auto& event : port->take_events()) log_->note(event.time_s, fmt::format("{}: {}", name, event.text));
   }
 }
 
@@ -130,8 +158,8 @@ void PlantRun::show_progress(std::atomic<bool>& stop, const std::atomic<bool>& e
 }
 
 void PlantRun::run_off_line() {
-  if (!loopback_)
-    throw InputError("simulate runs the loopback controller; controller = \"" + config_.controller + "\" has no wire here");
+  if (inner_controller() == nullptr)
+    throw InputError("simulate runs a controller of its own; controller = \"" + config_.controller + "\" has no wire here");
   clock_ = std::make_unique<rt::OfflineClock>(static_cast<std::int64_t>(std::llround(config_.loop.tick_s * 1e9)));
   config_.loop.record_work = false;
   const std::uint64_t ticks = config_.loop.ticks;
@@ -145,6 +173,22 @@ void PlantRun::run_off_line() {
     note_port_events();
   }
   log_->finish();
+}
+
+MachineFacts PlantRun::machine_facts() const {
+  MachineFacts facts;
+  facts.energy = machine_->machine().energy();
+  if (program_) facts.contour_peak_m = program_->contour_peak_m();
+  return facts;
+}
+
+std::vector<io::Counter> PlantRun::machine_counters() const {
+  const auto count = [](auto value) { return static_cast<std::uint64_t>(value); };
+  return {{"machine: stalled_ticks", "ticks that pushed the tool into material with the spindle standing, without force",
+           count(machine_->machine().stalled_ticks()), false},
+          {"machine: clipped_inputs", "inputs that were not finite or beyond a limit",
+           count(machine_->machine().clipped_inputs()), false},
+          {"machine: dropped_rows", "log rows dropped: the writer was too slow", machine_->dropped_records(), true}};
 }
 
 RunSummary PlantRun::summary(const std::string& verb) {
@@ -164,16 +208,21 @@ RunSummary PlantRun::summary(const std::string& verb) {
   facts.stats = &loop_->stats();
   facts.settings = settings_;
   facts.unwritten_rows = log_->unwritten_rows();
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    summary.energy.push_back(axes_[i].energy());
+  for (std::size_t i = 0; i < config_.axes.size(); ++i) {
+    summary.energy.push_back(axis(i).energy());
     facts.guards.push_back(loop_->guard(i).counters());
     facts.energy_balance_error = std::max(facts.energy_balance_error, summary.energy.back().balance_error());
     facts.finite =
-        facts.finite && std::isfinite(axes_[i].state().position_m) && std::isfinite(axes_[i].state().velocity_m_per_s);
+        facts.finite && std::isfinite(axis(i).state().position_m) && std::isfinite(axis(i).state().velocity_m_per_s);
   }
-  for (const auto* port : reporting_ports()) {
+  if (machine_) {
+    summary.machine = machine_facts();
+    facts.energy_balance_error = std::max(facts.energy_balance_error, summary.machine->energy.balance_error());
+    facts.counters = machine_counters();
+  }
+  for (const auto& [name, port] : reporting_ports()) {
     for (auto& counter : port->counters()) {
-      counter.name = fmt::format("{}: {}", port->name(), counter.name);
+      counter.name = fmt::format("{}: {}", name, counter.name);
       facts.counters.push_back(std::move(counter));
     }
   }

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "tools/config/input_error.h"
+#include "tools/machine/machine_recording.h"
 #include "tools/run/csv_file.h"
 
 namespace feedtwin::tools {
@@ -37,6 +38,24 @@ std::string_view state_name(io::DriveState state) noexcept {
       return "fault";
   }
   return "";
+}
+
+MachineSample sample_of(const rt::MachineRecord& row) {
+  MachineSample s{};
+  s.time_s = row.time_s;
+  s.x_m = row.x_m;
+  s.y_m = row.y_m;
+  s.x_torque_Nm = row.x_torque_Nm;
+  s.y_torque_Nm = row.y_torque_Nm;
+  s.force_x_N = row.force_x_N;
+  s.force_y_N = row.force_y_N;
+  s.cutting_torque_Nm = row.cutting_torque_Nm;
+  s.spindle_speed_rad_per_s = row.spindle_speed_rad_per_s;
+  s.removal_rate_m3_per_s = row.removal_rate_m3_per_s;
+  s.power = {row.pump_W, row.controller_W, row.spindle_W, row.feed_W};
+  s.pump_on = row.pump_on;
+  s.cutting = row.cutting;
+  return s;
 }
 
 std::string header(const RunLogSettings& settings) {
@@ -81,6 +100,8 @@ RunLog::RunLog(const RunLogSettings& settings) : settings_(settings), batch_(409
       files_.push_back(std::make_unique<CsvFile>(recording_path(settings.path, i, axes), header(settings)));
     }
   }
+  if (settings.machine != nullptr && !settings.path.empty())
+    machine_file_ = std::make_unique<CsvFile>(settings.path, machine_columns());
   events_ = make_event_log(settings.path);
 }
 
@@ -91,11 +112,13 @@ RunLog::~RunLog() {
 std::uint64_t RunLog::unwritten_rows() const noexcept {
   std::uint64_t rows = 0;
   for (const auto& file : files_) rows += file->unwritten_rows();
+  if (machine_file_) rows += machine_file_->unwritten_rows();
   return rows;
 }
 
 std::vector<std::string> RunLog::paths() const {
   std::vector<std::string> paths;
+  if (machine_file_) paths.push_back(machine_file_->path());
   for (const auto& file : files_) paths.push_back(file->path());
   if (late_file_) paths.push_back(late_file_->path());
   return paths;
@@ -109,6 +132,7 @@ void RunLog::start(rt::PlantLoop& loop) {
       const auto now = std::chrono::steady_clock::now();
       if (now - last_flush > std::chrono::milliseconds(250)) {
         for (const auto& file : files_) file->flush();
+        if (machine_file_) machine_file_->flush();
         events_->flush();
         last_flush = now;
       }
@@ -122,6 +146,7 @@ void RunLog::finish() {
   finish_.store(true, std::memory_order_release);
   if (thread_.joinable()) thread_.join();
   for (const auto& file : files_) file->flush();
+  if (machine_file_) machine_file_->flush();
   if (late_file_) late_file_->flush();
   events_->flush();
 }
@@ -134,9 +159,19 @@ void RunLog::drain(rt::PlantLoop& loop) {
     }
     rows_ += count;
   }
+  drain_machine();
   std::array<rt::Event, 64> events;
   for (std::size_t count = loop.events().pop(events); count > 0; count = loop.events().pop(events)) {
     for (std::size_t i = 0; i < count; ++i) write_event(events[i]);
+  }
+}
+
+void RunLog::drain_machine() {
+  if (settings_.machine == nullptr) return;
+  std::array<rt::MachineRecord, 256> rows;
+  auto& ring = settings_.machine->records();
+  for (std::size_t count = ring.pop(rows); count > 0; count = ring.pop(rows)) {
+    for (std::size_t i = 0; machine_file_ && i < count; ++i) machine_file_->add(machine_row(sample_of(rows[i])));
   }
 }
 

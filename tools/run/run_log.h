@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "rt/machine_plant.h"
 #include "rt/plant_loop.h"
 
 namespace spdlog {
@@ -26,6 +27,7 @@ struct RunLogSettings {
   bool with_forces = true;
   std::vector<double> m_per_count;                                          ///< one for each axis
   std::function<double(std::size_t axis, std::uint64_t tick)> reference_m;  ///< may be empty
+  rt::MachinePlant* machine = nullptr;                                      ///< whose rows go to `path` itself
 };
 
 class CsvFile;
@@ -57,11 +59,13 @@ class RunLog {
 
  private:
   void write_row(const rt::AxisRecord& row);
+  void drain_machine();
   void keep_for_late_ticks(const rt::AxisRecord& row);
   void write_event(const rt::Event& event);
 
   RunLogSettings settings_;
   std::vector<std::unique_ptr<CsvFile>> files_;
+  std::unique_ptr<CsvFile> machine_file_;
   std::unique_ptr<CsvFile> late_file_;
   std::shared_ptr<spdlog::logger> events_;
   std::deque<rt::AxisRecord> recent_;

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "plant/parameter_table.h"
+#include "tools/machine/machine_json.h"
+#include "tools/machine/machine_run.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -46,6 +48,23 @@ plant::AxisEnergy sum(const std::vector<plant::AxisEnergy>& axes) {
   plant::AxisEnergy total;
   for (const auto& energy : axes) total += energy;
   return total;
+}
+
+json to_json(const MachineFacts& facts) {
+  json out{{"energy_J", machine_energy_json(facts.energy)},
+           {"energy_balance_error", facts.energy.balance_error()},
+           {"time_s", facts.energy.time_s},
+           {"removed_mm3", facts.energy.removed_m3 * 1e9}};
+  if (facts.contour_peak_m) out["contour_error_m"] = *facts.contour_peak_m;
+  return out;
+}
+
+void print_machine(const MachineFacts& facts) {
+  fmt::print("\nMachine: {:.1f} s, {:.1f} J, {:.2f} mm3 removed; balance open by {:.1e}\n", facts.energy.time_s,
+             facts.energy.total_J(), facts.energy.removed_m3 * 1e9, facts.energy.balance_error());
+  for (const auto& [component, joules] : energy_by_component(facts.energy))
+    fmt::print("  {:<20} {:10.3f} J\n", component, joules);
+  if (facts.contour_peak_m) fmt::print("  contour error up to {:.2f} um\n", *facts.contour_peak_m * 1e6);
 }
 
 void print_row(const char* what, const rt::LatencyHistogram& histogram) {
@@ -93,6 +112,10 @@ nlohmann::json to_json(const RunSummary& summary) {
   out["energy_J"] = to_json(total);
   out["energy_balance_error"] = total.balance_error();
   out["input_work_J"] = total.input_work_J;
+  if (summary.machine) {
+    out["machine"] = to_json(*summary.machine);
+    out["energy_balance_error"] = summary.machine->energy.balance_error();
+  }
   for (const auto& energy : summary.energy) {
     out["axes"].push_back({{"energy_J", to_json(energy)},
                            {"energy_balance_error", energy.balance_error()},
@@ -121,6 +144,7 @@ void print(const RunSummary& summary) {
   print_row("input age", stats.input_age);
   if (stats.reply.total() > 0) print_row("reply", stats.reply);
   print_energy(summary);
+  if (summary.machine) print_machine(*summary.machine);
   fmt::print("\nVerdict: {}\n", rt::name(summary.verdict.verdict));
   for (const auto& reason : summary.verdict.reasons) fmt::print("  - {}\n", reason);
   for (const auto& file : summary.files) fmt::print("Written: {}\n", file);

@@ -2,15 +2,23 @@
 // What a run of `serve` or `simulate` says at its end: on the terminal and as JSON (contract: serve and simulate).
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "plant/feed_axis.h"
+#include "plant/machine/machine.h"
 #include "rt/plant_loop.h"
 #include "rt/rt_setup.h"
 #include "rt/run_verdict.h"
 
 namespace feedtwin::tools {
+
+/// Of a run of a whole machine tool.
+struct MachineFacts {
+  plant::MachineEnergy energy;
+  std::optional<double> contour_peak_m;  ///< where the program runs inside
+};
 
 struct RunSummary {
   std::string verb, source, controller;
@@ -19,6 +27,7 @@ struct RunSummary {
   std::vector<rt::SettingReport> settings;
   rt::RunVerdict verdict;
   std::vector<plant::AxisEnergy> energy;  ///< by axis
+  std::optional<MachineFacts> machine;
   std::string parameter_hash;
   std::vector<std::string> files;
 };

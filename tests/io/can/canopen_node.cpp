@@ -336,5 +336,30 @@ TEST(CanopenNode, ThreeAxesFitIntoOneMegabit) {
               static_cast<double>(b.bus.busy_ns() - busy_ns) / cycles / 1e3, static_cast<double>(most_ns) / 1e3, worst);
 }
 
+TEST(CanopenNode, AMachinesSpindleAndAuxiliaryFunctionsByObjectAndByPdo) {
+  BusWithMaster b(2);
+  MachineRequest machine;
+  ASSERT_EQ(b.write(0x2010, 0, 3000, 2), 0U);
+  ASSERT_EQ(b.write(0x2011, 0, 0x6, 1), 0U);  // M4, M7
+  ASSERT_EQ(b.write(0x2012, 0, 250, 2), 0U);
+  EXPECT_EQ(b.write(0x2011, 0, 16, 1), 0x0609'0031U);
+  ASSERT_TRUE(b.port->receive_machine(machine));
+  EXPECT_NEAR(machine.spindle_speed_rad_per_s, -314.159265, 1e-6);
+  EXPECT_TRUE(machine.pump);
+  EXPECT_DOUBLE_EQ(machine.depth_of_cut_m, 250e-6);
+  EXPECT_FALSE(b.port->receive_machine(machine)) << "nothing new";
+  // into RPDO 2, as a master maps it
+  for (const auto& [index, sub, value, length] : std::initializer_list<std::array<std::int64_t, 4>>{
+           {0x1601, 1, 0x2010'0010, 4}, {0x1601, 2, 0x2011'0008, 4}, {0x1601, 0, 2, 1}, {0x1401, 1, 0x301, 4}}) {
+    ASSERT_EQ(b.write(static_cast<int>(index), static_cast<int>(sub), value, static_cast<int>(length)), 0U) << index << sub;
+  }
+  b.nmt(1);
+  b.say(make_frame(0x301, {0x58, 0x02, 0x01}));
+  b.sync();
+  ASSERT_TRUE(b.port->receive_machine(machine));
+  EXPECT_NEAR(machine.spindle_speed_rad_per_s, 62.8318531, 1e-6);
+  EXPECT_FALSE(machine.pump);
+}
+
 }  // namespace
 }  // namespace feedtwin::io::can

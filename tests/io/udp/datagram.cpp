@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <limits>
 #include <random>
 
 #include "tests/io/udp/peer.h"
@@ -85,6 +87,25 @@ TEST(UdpDatagram, EveryFieldOfTheReplyIsWhereItIsDocumented) {
   EXPECT_EQ(at<double>(bytes, 96), 0.5);
   EXPECT_EQ(at<std::uint16_t>(bytes, 104), 0x8008);
   for (std::size_t i = 106; i < size; ++i) EXPECT_EQ(bytes[i], 0) << i;
+}
+
+TEST(UdpDatagram, AMachinesSpindleAndAuxiliaryFunctionsComeBesideItsTorques) {
+  Bytes bytes = test::request(1, {{}, {}});
+  const float speed_rad_per_s = 314.0F, depth_m = 2.5e-4F;
+  std::memcpy(bytes.data() + 12, &speed_rad_per_s, 4);
+  std::memcpy(bytes.data() + request_header_bytes + 12, &depth_m, 4);
+  Request request;
+  for (unsigned bits = 0; bits < 16; ++bits) {
+    bytes[7] = static_cast<std::uint8_t>(bits);
+    ASSERT_TRUE(decode(bytes, 2, request));
+    const double sign = (bits & 3) == 1 ? 1.0 : (bits & 3) == 2 ? -1.0 : 0.0;
+    EXPECT_EQ(request.machine.spindle_speed_rad_per_s, sign * 314.0) << bits;
+    EXPECT_EQ(request.machine.pump, (bits & 12) != 0) << bits;
+    EXPECT_FLOAT_EQ(static_cast<float>(request.machine.depth_of_cut_m), depth_m);
+  }
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(bytes.data() + 12, &nothing, 4);
+  EXPECT_FALSE(decode(bytes, 2, request));
 }
 
 }  // namespace

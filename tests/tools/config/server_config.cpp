@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "io/faults/fault_port.h"
 #include "plant/parameter_table.h"
 #include "tools/config/axis_file.h"
 #include "tools/config/input_error.h"
@@ -179,6 +180,42 @@ TEST_F(ServerConfigFile, AxesStandBesideTheConfigurationThatNamesThem) {
   ASSERT_EQ(config.axes.size(), 2U);
   EXPECT_EQ(config.loopback[0].motion->name, "sine");
   EXPECT_EQ(config.loopback[1].motion->name, "s_curve");
+}
+
+TEST_F(ServerConfigFile, TwoPortsOfOneKindAreToldApartByName) {
+  const std::string second_bus =
+      "[[port]]\nkind = \"can\"\n[[port]]\nkind = \"can\"\nname = \"can-b\"\ninterface = \"vcan1\"\n";
+  const auto config = read_server_config({.path = write("[server]\ncontroller = \"can-b\"\n" + second_bus +
+                                                        "[[fault]]\nkind = \"lost_command\"\nat_s = 1\nport = \"can\"\n")});
+  ASSERT_EQ(config.ports.size(), 2U);
+  EXPECT_EQ(config.ports[0].name, "can");
+  EXPECT_EQ(config.ports[1].name, "can-b");
+  EXPECT_EQ(config.controller, "can-b");
+  EXPECT_NE(dynamic_cast<const io::faults::FaultPort*>(config.ports[0].port.get()), nullptr) << "the fault is on this one";
+  EXPECT_EQ(dynamic_cast<const io::faults::FaultPort*>(config.ports[1].port.get()), nullptr);
+  EXPECT_EQ(read_server_config({.path = write(second_bus), .controller = "can-b"}).controller, "can-b");
+
+  EXPECT_NE(error_of("[[port]]\nkind = \"can\"\n[[port]]\nkind = \"can\"\n").find("a second port \"can\""),
+            std::string::npos);
+  EXPECT_NE(error_of("[[port]]\nkind = \"can\"\nname = \"udp\"\n").find("another kind of port"), std::string::npos);
+  EXPECT_NE(error_of("[[port]]\nkind = \"can\"\nname = \"loopback\"\n").find(":3: port[0].name"), std::string::npos);
+  EXPECT_NE(error_of("[server]\ncontroller = \"can-c\"\n" + second_bus).find("can-b, found \"can-c\""), std::string::npos);
+}
+
+TEST_F(ServerConfigFile, AMachineFileMakesThePlantAMachineTool) {
+  const auto config = read_server_config({.path = write("[spindle]\nmotor = \"B\"\n[controller]\ntick_s = 5e-4\n")});
+  ASSERT_NE(config.machine, nullptr);
+  EXPECT_EQ(config.controller, "program");
+  EXPECT_EQ(config.axes.size(), 2U);
+  EXPECT_EQ(config.loop.tick_s, 5e-4);
+  EXPECT_EQ(read_server_config({.path = write("[tool]\nteeth = 3\n"), .controller = "modbus"}).controller, "modbus");
+  EXPECT_EQ(error_of("[server]\nperiod_s = 2e-3\n[tool]\nteeth = 3\n"), "");
+  EXPECT_NE(error_of("[tool]\nteth = 3\n").find(":2: tool.teth: unknown key"), std::string::npos);
+  EXPECT_NE(error_of("[server]\ncontroller = \"program\"\n").find("server.controller: expected one of"), std::string::npos)
+      << "there is no program without a machine";
+  write_axis_file((folder_ / "x.toml").string(), plant::source_axis());
+  EXPECT_NE(error_of("[server]\naxes = [\"x.toml\"]\n[tool]\nteeth = 3\n").find("whose axes are [x] and [y]"),
+            std::string::npos);
 }
 
 }  // namespace
