@@ -1,5 +1,7 @@
 #include "tools/ranks/ranks.h"
 
+#define OMPI_SKIP_MPICXX 1  // the C interface alone: C++ bindings would need a library of their own
+#define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 
 #include <cstdlib>
