@@ -56,6 +56,13 @@ MillingLoad Machine::cut(const Engagement& engagement, double tick_s) noexcept {
     dx_m = x_.signals().position_m - (newer.x_m + part * (older.x_m - newer.x_m));
     dy_m = y_.signals().position_m - (newer.y_m + part * (older.y_m - newer.y_m));
   }
+  // a tooth meets no more material than lies before it: the force of a spindle that hardly turns would grow without end
+  const double feed_m = std::hypot(dx_m, dy_m), most_m = 0.5 * milling_.tool().diameter_m;
+  if (feed_m > most_m) {
+    ++stalled_ticks_;
+    dx_m *= most_m / feed_m;
+    dy_m *= most_m / feed_m;
+  }
   MillingLoad load = milling_.over(spindle_.angle_rad(), speed * tick_s, dx_m, dy_m, engagement);
   load.removal_rate_m3_per_s = std::max(0.0, load.removal_rate_m3_per_s / period_s);
   return load;

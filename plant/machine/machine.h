@@ -85,7 +85,8 @@ class Machine {
   [[nodiscard]] const FeedAxis& y() const noexcept FEEDTWIN_REALTIME { return y_; }
   [[nodiscard]] const MachineParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] MachineEnergy energy() const noexcept FEEDTWIN_REALTIME;
-  /// Ticks in which the tool was pushed into material with the spindle standing: there is no force model for that.
+  /// Ticks in which the tool was pushed into material with the spindle standing (there is no force model for that), or so
+  /// slow that a tooth would take more than the cutter's radius (the force is that of the radius then).
   [[nodiscard]] std::int64_t stalled_ticks() const noexcept { return stalled_ticks_; }
 
   /// Inputs that were not finite or beyond a limit, of both axes and the spindle's speed.

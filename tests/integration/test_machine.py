@@ -62,7 +62,7 @@ class MachineVerb(unittest.TestCase):
         bad.write_text("[spindle]\nmotor = \"A\"\ninertia = 1\n")
         self.assertIn("bad.toml:3: spindle.inertia", self.wrong(bad))
         gcode = self.path / "bad.ngc"
-        for text, place in (("G21\nG1 X1 F100\nG33 X2\n", "bad.ngc:3:1"), ("G21 G1 X1 F100 (open\n", "bad.ngc:1:16"),
+        for text, place in (("G21\nG1 X1 F100\nG33 X2\n", "bad.ngc:3:1"), ("G21 G1 X1 F100 (open\n", "bad.ngc:1:17"),
                             ("G21 G1 X1\n", "bad.ngc:1:"), ("G21\nG2 X1 Y1 R0.1 F10\n", "bad.ngc:2:")):
             gcode.write_text(text)
             self.assertIn(place, self.wrong("--program", gcode), text)
