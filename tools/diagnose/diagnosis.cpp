@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "plant/effects/registry.h"
+#include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/sentence.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -107,23 +109,6 @@ std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const 
   return {{low, high}};
 }
 
-plant::AxisParameters extended(const Fit& fit) {
-  plant::AxisParameters axis = fit.model.axis;
-  for (const auto& active : fit.model.effects) {
-    const auto* entry = plant::find_effect(active.hypothesis->id);
-    if (entry == nullptr || !worth_naming(active)) continue;
-    auto setting = plant::preset_of(*entry);
-    for (const auto& [name, value] : active.hypothesis->named(active.q, fit.model.axis)) {
-      double* place = plant::value_in(setting, *entry, name);
-      if (place == nullptr) continue;
-      const auto known = std::ranges::find(entry->parameters, name, &plant::EffectParameter::name);
-      *place = std::clamp(value, known->lowest, known->highest);
-    }
-    axis.effects.push_back(std::move(setting));
-  }
-  return axis;
-}
-
 void extend(plant::AxisParameters& axis, const Learned& learned) {
   const auto* entry = plant::find_effect("learned_residual");
   if (entry == nullptr) return;
@@ -154,6 +139,17 @@ std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Ca
   return out;
 }
 
+std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const plant::AxisParameters& nominal,
+                                              const plant::AxisParameters& recalibrated_only,
+                                              const plant::AxisParameters& final) {
+  std::map<std::string, ChannelFigures> out;
+  const auto before = runs.nrmse(nominal), middle = runs.nrmse(recalibrated_only), after = runs.nrmse(final);
+  const auto floor = runs.noise_floor(final);
+  for (const auto& [channel, value] : before)
+    out[channel] = {value, middle.at(channel), after.at(channel), floor.at(channel)};
+  return out;
+}
+
 void plan_next(Diagnosis& result) {
   for (const auto& effect : result.effects) {
     if (effect.alternatives.empty()) continue;
@@ -175,8 +171,17 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   const InverseModel model = model_of(data.fit, data.axis);
   const Fitter fitter(model, data.axis);
   const SearchResult found = search(fitter, Bar{}, progress);
-  const Fit& fit = found.final;
-  const double inflation = std::sqrt(std::max(1.0, fit.cost / static_cast<double>(model.rows())));
+  Fit fit = found.final;
+  double inflation = std::sqrt(std::max(1.0, fit.cost / static_cast<double>(model.rows())));
+  ForwardModel forward(data.fit, data);
+  forward.learn_meter(extended(fit.model));
+  if (!fit.model.effects.empty()) {
+    progress("polishing the numbers by closed-loop simulation");
+    auto polished = polish(forward, fitter, fit.model);
+    fit.model = polished.model;
+    fit.covariance = polished.covariance;
+    inflation = 1.0;
+  }
 
   bool missing = false, undecided = false;
   for (const auto& one : found.found) {
@@ -195,7 +200,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
     result.effects.push_back(std::move(effect));
   }
   result.recalibrated = recalibrated(fitter, fit, inflation);
-  result.updated = extended(fit);
+  result.updated = extended(fit.model, worth_naming);
   missing = missing || !result.setup.empty();
   result.verdict = undecided                                               ? "named-set"
                    : missing                                               ? "named"
@@ -217,7 +222,11 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
       extend(result.updated, learned);
     }
   }
-  result.holdout = figures(held_out, nominal, found.recalibrated.model, fit.model);
+  ForwardModel simulated(unseen, data);
+  forward.learn_meter_noise(result.updated);
+  simulated.take_meter_from(forward);
+  result.holdout_inverse = figures(held_out, nominal, found.recalibrated.model, fit.model);
+  result.holdout = figures(simulated, data.axis, extended(found.recalibrated.model), result.updated);
   result.energy_before = energy(held_out, nominal);
   result.energy_after = energy(held_out, fit.model);
   plan_next(result);

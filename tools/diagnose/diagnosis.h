@@ -46,7 +46,8 @@ struct Diagnosis {
   std::vector<NamedEffect> effects;
   std::optional<Learned> unknown;  ///< structure that no hypothesis explains
   std::vector<Recalibrated> recalibrated;
-  std::map<std::string, ChannelFigures> holdout;
+  std::map<std::string, ChannelFigures> holdout;          ///< by closed-loop simulation
+  std::map<std::string, ChannelFigures> holdout_inverse;  ///< by the inverse model, through its low pass
   Energy energy_before, energy_after;
   std::string next_move;
   std::vector<std::string> next_separates;

@@ -28,6 +28,16 @@ json of(const Estimate& estimate) {
   return {{"value", estimate.value}, {"ci90", {estimate.low, estimate.high}}};
 }
 
+json of(const std::map<std::string, ChannelFigures>& channels) {
+  json out = json::object();
+  for (const auto& [channel, f] : channels)
+    out[channel] = {{"nrmse_before", f.before},
+                    {"nrmse_recalibrated", f.recalibrated},
+                    {"nrmse_after", f.after},
+                    {"noise_floor", f.floor}};
+  return out;
+}
+
 json of(const NamedEffect& effect) {
   json parameters = json::object(), intervals = json::array();
   for (const auto& [name, estimate] : effect.parameters) parameters[name] = of(estimate);
@@ -76,12 +86,8 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   out["recalibrated"] = json::object();
   for (const auto& one : diagnosis.recalibrated)
     out["recalibrated"][one.key] = {{"was", one.was}, {"now", one.now.value}, {"ci90", {one.now.low, one.now.high}}};
-  out["holdout"] = json::object();
-  for (const auto& [channel, f] : diagnosis.holdout)
-    out["holdout"][channel] = {{"nrmse_before", f.before},
-                               {"nrmse_recalibrated", f.recalibrated},
-                               {"nrmse_after", f.after},
-                               {"noise_floor", f.floor}};
+  out["holdout"] = of(diagnosis.holdout);
+  out["holdout_inverse_model"] = of(diagnosis.holdout_inverse);
   out["energy"] = json::object();
   for (const auto& [component, before] : diagnosis.energy_before)
     out["energy"][component] = {{"before_J", before}, {"after_J", diagnosis.energy_after.at(component)}};

@@ -1,6 +1,21 @@
 #include "tools/identify/channel_residuals.h"
 
 namespace feedtwin::tools {
+namespace {
+
+std::vector<double> slip_residual(const Recording& recording, const Simulated& simulated) {
+  const auto scale = recording.at(channel::scale_position_m), motor = recording.at(channel::position_m);
+  std::vector<double> residual(scale.size());
+  double mean = 0.0;
+  for (std::size_t i = 0; i < residual.size(); ++i) {
+    residual[i] = simulated.scale_position_m[i] - simulated.position_m[i] - (scale[i] - motor[i]);
+    mean += residual[i] / static_cast<double>(residual.size());
+  }
+  for (double& value : residual) value -= mean;
+  return residual;
+}
+
+}  // namespace
 
 lanes::Wanted wanted_for(const Recording& recording) {
   return {.torque = true,
@@ -16,6 +31,7 @@ std::span<const double> simulated_channel(const Simulated& simulated, std::strin
   if (name == channel::torque_sensor_Nm) return simulated.torque_sensor_Nm;
   if (name == channel::force_sensor_N) return simulated.force_sensor_N;
   if (name == channel::power_W) return simulated.power_W;
+  if (name == channel::scale_position_m) return simulated.scale_position_m;
   return {};
 }
 
@@ -27,7 +43,9 @@ std::array<std::vector<double>, fitted_channels.size()> channel_residuals(const 
     const auto recorded = recording.at(fitted_channels[c]);
     const auto model = simulated_channel(simulated, fitted_channels[c]);
     if (recorded.empty() || model.empty()) continue;
-    if (fitted_channels[c] == channel::power_W) {
+    if (fitted_channels[c] == channel::scale_position_m) {
+      all[c] = slip_residual(recording, simulated);
+    } else if (fitted_channels[c] == channel::power_W) {
       const auto shown = as_metered(model, meter);
       for (const std::size_t row : meter.rows) all[c].push_back(shown[row] - recorded[row]);
     } else {

@@ -11,7 +11,7 @@ namespace feedtwin::tools {
 
 /// The channels that identification learns from, in this order.
 inline constexpr std::array fitted_channels{channel::torque_cmd_Nm, channel::torque_sensor_Nm, channel::force_sensor_N,
-                                            channel::power_W};
+                                            channel::power_W, channel::scale_position_m};
 
 /// What a simulation has to give for this recording.
 [[nodiscard]] lanes::Wanted wanted_for(const Recording& recording);
@@ -19,7 +19,9 @@ inline constexpr std::array fitted_channels{channel::torque_cmd_Nm, channel::tor
 /// A channel as simulated; empty where it was not asked for.
 [[nodiscard]] std::span<const double> simulated_channel(const Simulated& simulated, std::string_view name);
 
-/// Residuals of the fitted channels, empty where the recording lacks one. Power: one residual for each meter reading.
+/// Residuals of the fitted channels, empty where the recording or the simulation lacks one. Power: one residual for each
+/// meter reading. Scale: what it shows beyond the motor encoder, without its mean, since where a ruler has its zero tells
+/// nothing.
 [[nodiscard]] std::array<std::vector<double>, fitted_channels.size()> channel_residuals(const Recording& recording,
                                                                                         const MeteredPower& meter,
                                                                                         const Simulated& simulated);

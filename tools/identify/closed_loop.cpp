@@ -27,12 +27,19 @@ double start_velocity(std::span<const double> position_m, const plant::AxisParam
   return std::abs(position_m[1] - position_m[0]) > 1.5 * count_m ? (position_m[2] - position_m[0]) / (2.0 * tick_s) : 0.0;
 }
 
+/// Eqs. 7 and 11 at a speed, without the idle power.
+double drive_power_W(const plant::MotorParameters& motor, double force_N, double v) {
+  const bool forward = v > 0.0;
+  const auto& linear = motor.electrical_linear_Ws_per_m;
+  const auto& quadratic = motor.electrical_quadratic_Ws2_per_m2;
+  return (forward ? linear.pos : linear.neg) * std::abs(v) + (forward ? quadratic.pos : quadratic.neg) * v * v + force_N * v;
+}
+
 }  // namespace
 
-plant::AxisParameters without_stops(plant::AxisParameters parameters, const Recording& recording) {
-  const auto [low, high] = std::ranges::minmax(recording.at(channel::position_m));
-  parameters.axis.stroke_centre_m = 0.5 * (low + high);
-  parameters.axis.stroke_m = std::max(parameters.axis.stroke_m, 2.0 * (high - low));
+plant::AxisParameters without_stops(plant::AxisParameters parameters) {
+  parameters.axis.end_stop_stiffness_N_per_m = 0.0;  // the stroke itself stays: friction may vary along it
+  parameters.axis.end_stop_damping_Ns_per_m = 0.0;
   return parameters;
 }
 
@@ -67,12 +74,14 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
   controllers::CascadeLaw<double> cascade(view.gains);
   cascade.reset(view.position_m[0] - position_offset_m);
   Simulated out;
-  for (auto* channel : {&out.torque_Nm, &out.position_m, &out.torque_sensor_Nm, &out.force_sensor_N, &out.power_W}) {
+  for (auto* channel : {&out.torque_Nm, &out.position_m, &out.torque_sensor_Nm, &out.force_sensor_N, &out.power_W,
+                        &out.scale_position_m, &out.instant_power_W}) {
     channel->resize(view.samples);
   }
   for (std::size_t i = 0; i < view.samples; ++i) {
     const double shown_m = axis.signals().position_m - position_offset_m;
     out.position_m[i] = shown_m;
+    out.scale_position_m[i] = axis.signals().scale_position_m - position_offset_m;
     out.torque_Nm[i] = view.reference != nullptr
                            ? cascade.torque_Nm(view.reference[i], shown_m, view.tick_s)
                            : view.torque_Nm[i] + stand_in.correction_N(view.position_m[i] - shown_m) / transmission;
@@ -80,7 +89,12 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
     const auto forces = axis.force_sensors(command);
     out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;
     out.force_sensor_N[i] = forces.force_sensor_N;
-    out.power_W[i] = axis.step(command, view.tick_s).power_W;
+    const double start_m = axis.signals().position_m, start_m_per_s = axis.signals().velocity_m_per_s;
+    const auto& after = axis.step(command, view.tick_s);
+    out.power_W[i] = after.power_W;
+    const double force_N = after.torque_Nm * transmission, mean_m_per_s = (after.position_m - start_m) / view.tick_s;
+    out.instant_power_W[i] = after.power_W + drive_power_W(axis.parameters().motor, force_N, start_m_per_s) -
+                             drive_power_W(axis.parameters().motor, force_N, mean_m_per_s);
   }
   return out;
 }
@@ -91,7 +105,7 @@ std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run, std::span<
   models.reserve(candidates.size());
   for (const auto& [parameters, position_offset_m, force_offset_N] : candidates) {
     const auto& motor = parameters.motor;
-    models.push_back({plant::make_axis_model(without_stops(parameters, run.recording())), motor.electrical_idle_W,
+    models.push_back({plant::make_axis_model(without_stops(parameters)), motor.electrical_idle_W,
                       motor.electrical_linear_Ws_per_m.pos, motor.electrical_linear_Ws_per_m.neg,
                       motor.electrical_quadratic_Ws2_per_m2.pos, motor.electrical_quadratic_Ws2_per_m2.neg,
                       position_offset_m, force_offset_N});

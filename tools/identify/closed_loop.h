@@ -35,8 +35,8 @@ class ClosedLoopRun {
 /// Channels as simulated, each as long as the run; `torque_Nm` is what the controller asks for.
 using Simulated = lanes::CandidateResult;
 
-/// The same axis with end stops out of the recording's way: where they stand is not what a recording of motion is about.
-[[nodiscard]] plant::AxisParameters without_stops(plant::AxisParameters parameters, const Recording& recording);
+/// The same axis without its end stops: where they stand is not what a recording of motion is about.
+[[nodiscard]] plant::AxisParameters without_stops(plant::AxisParameters parameters);
 
 /// Any axis, with whatever effects it has, one at a time. The axis is placed at the run's start first.
 [[nodiscard]] Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis,

@@ -23,7 +23,7 @@ TrackingError tracking_error(std::span<const double> reference_m, std::span<cons
 void compare_closed_loop(const Case& recordings, const plant::AxisParameters& parameters, RunComparison& into) {
   const Recording& recording = *into.recording;
   const ClosedLoopRun run(recording, recordings.axis, recordings.controller);
-  plant::FeedAxis axis(without_stops(parameters, recording));
+  plant::FeedAxis axis(without_stops(parameters));
   into.simulated = simulate_closed_loop(run, axis);
   if (recording.has(channel::power_W)) {
     const auto meter = metered_rows(recording.at(channel::power_W));
@@ -37,8 +37,8 @@ void compare_closed_loop(const Case& recordings, const plant::AxisParameters& pa
                         only_if(channel::torque_sensor_Nm, into.simulated.torque_sensor_Nm),
                         only_if(channel::force_sensor_N, into.simulated.force_sensor_N),
                         only_if(channel::power_W, into.simulated.power_W), parameters.axis.lead_m, recording.sample_s});
-  for (const auto name :
-       {channel::torque_cmd_Nm, channel::position_m, channel::torque_sensor_Nm, channel::force_sensor_N, channel::power_W}) {
+  for (const auto name : {channel::torque_cmd_Nm, channel::position_m, channel::scale_position_m, channel::torque_sensor_Nm,
+                          channel::force_sensor_N, channel::power_W}) {
     if (!recording.has(name)) continue;
     into.closed_loop.emplace(
         name, channel_metrics(recording.at(name), simulated_channel(into.simulated, name), recording.sample_s));
@@ -160,7 +160,9 @@ std::vector<Figure> figures_of(const CaseComparison& comparison, const plant::Ax
     for (const auto& kind : channel_kinds()) {
       const auto simulated = simulated_channel(run.simulated, kind.name);
       const auto recorded = recording.at(kind.name);
-      if (recorded.empty() || simulated.empty() || kind.name == channel::position_m) continue;
+      if (recorded.empty() || simulated.empty() || kind.name == channel::position_m ||
+          kind.name == channel::scale_position_m)
+        continue;
       std::vector<double> residual(recorded.size());
       for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = recorded[i] - simulated[i];
       figures.push_back({file + ": " + std::string(kind.name) + ", closed loop",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/least_squares.h"
@@ -27,10 +28,13 @@ class ResidualStack {
   ResidualStack(const std::vector<ClosedLoopRun>& runs, const std::vector<FitParameter>& parameters,
                 const BatchSimulator& simulate, const OutputErrorSettings& settings)
       : runs_(runs), parameters_(parameters), simulate_(simulate), settings_(settings) {
+    double squares = 0.0, readings = 0.0;
     for (const auto& run : runs) {
       const auto power = run.recording().at(channel::power_W);
       meters_.push_back(power.empty() ? MeteredPower{} : metered_rows(power));
+      for (const double value : power) squares += value * value, readings += 1.0;
     }
+    if (squares > 0.0) power_rms_W_ = std::sqrt(squares / readings);
   }
 
   MatrixXd operator()(const MatrixXd& points) {
@@ -44,6 +48,7 @@ class ResidualStack {
         if (all.size() == 0) all.resize(total_rows(channels), points.cols());
         Index at = row;
         for (std::size_t c = 0; c < channels.size(); ++c) {
+          if (fitted_channels[c] == channel::power_W) even_out(r, channels[c]);
           whitening_[c].apply(channels[c]);
           std::copy(channels[c].begin(), channels[c].end(), all.col(p).data() + at);
           at += static_cast<Index>(channels[c].size());
@@ -65,6 +70,7 @@ class ResidualStack {
         if (!channels[c].empty()) stretches[c].push_back(std::move(channels[c]));
       }
     }
+    learn_growth(stretches);
     for (std::size_t c = 0; c < stretches.size(); ++c) {
       whitening_[c] = fit_whitening(stretches[c], coloured ? settings_.whitening_order : 0, smallest_sigma(c));
     }
@@ -78,6 +84,7 @@ class ResidualStack {
  private:
   /// A channel cannot be trusted beyond a ten-thousandth of its own size.
   double smallest_sigma(std::size_t c) const {
+    if (fitted_channels[c] == channel::scale_position_m) return 1e-9;  // what it is fitted to is not its own size
     double sum = 0.0, count = 0.0;
     for (const auto& run : runs_) {
       for (const double value : run.recording().at(fitted_channels[c])) sum += value * value, count += 1.0;
@@ -85,15 +92,54 @@ class ResidualStack {
     return count > 0.0 ? std::max(1e-4 * std::sqrt(sum / count), 1e-12) : 1.0;
   }
 
-  Index total_rows(const std::array<std::vector<double>, fitted_channels.size()>& /*first*/) {
+  /// A meter's error is partly of its reading: sigma ~ 1 + growth |P| / rms P. The growth under which the residuals are
+  /// likeliest, and the residuals evened out by it.
+  void learn_growth(std::array<std::vector<std::vector<double>>, fitted_channels.size()>& stretches) {
+    const auto at = std::ranges::find(fitted_channels, channel::power_W) - fitted_channels.begin();
+    auto& power = stretches[static_cast<std::size_t>(at)];
+    if (power.empty()) return;
+    const auto original = power;
+    double best = std::numeric_limits<double>::infinity(), chosen = 0.0;
+    for (const double growth : {0.0, 0.5, 2.0, 8.0, 32.0}) {
+      growth_ = growth;
+      double squares = 0.0, logarithms = 0.0, count = 0.0;
+      for (std::size_t r = 0; r < original.size(); ++r) {
+        auto even = original[r];
+        even_out(r, even);
+        for (std::size_t i = 0; i < even.size(); ++i) {
+          squares += even[i] * even[i];
+          logarithms += std::log(1.0 + growth * reading(r, i));
+          count += 1.0;
+        }
+      }
+      const double unlikely = 0.5 * count * std::log(squares / count + 1e-300) + logarithms;
+      if (unlikely < best) best = unlikely, chosen = growth;
+    }
+    growth_ = chosen;
+    for (std::size_t r = 0; r < power.size(); ++r) even_out(r, power[r]);
+  }
+
+  /// |P| / rms P of a meter reading.
+  double reading(std::size_t run, std::size_t i) const {
+    return std::abs(runs_[run].recording().at(channel::power_W)[meters_[run].rows[i]]) / power_rms_W_;
+  }
+
+  void even_out(std::size_t run, std::vector<double>& residuals) const {
+    if (growth_ > 0.0)
+      for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] /= 1.0 + growth_ * reading(run, i);
+  }
+
+  /// All runs give the channels that the first one gives.
+  Index total_rows(const std::array<std::vector<double>, fitted_channels.size()>& first) {
     Index rows = 0;
     starts_.clear();
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      for (const auto name : fitted_channels) {
-        const auto recorded = runs_[r].recording().at(name);
-        if (recorded.empty()) continue;
+      for (std::size_t c = 0; c < fitted_channels.size(); ++c) {
+        const auto name = fitted_channels[c];
+        if (first[c].empty()) continue;
         starts_.push_back(rows);
-        rows += static_cast<Index>(name == channel::power_W ? meters_[r].rows.size() : recorded.size());
+        const std::size_t recorded = runs_[r].recording().at(name).size();
+        rows += static_cast<Index>(name == channel::power_W ? meters_[r].rows.size() : recorded);
       }
     }
     starts_.push_back(rows);
@@ -114,6 +160,7 @@ class ResidualStack {
   const BatchSimulator& simulate_;
   const OutputErrorSettings& settings_;
   std::vector<MeteredPower> meters_;
+  double power_rms_W_ = 1.0, growth_ = 0.0;
   std::array<Whitening, fitted_channels.size()> whitening_;
   std::vector<Index> starts_;
   int simulations_ = 0;
@@ -193,7 +240,7 @@ LeastSquaresProblem problem_for(const std::vector<FitParameter>& parameters, Res
   for (auto* vector : {&problem.start, &problem.lowest, &problem.highest, &problem.step}) vector->resize(n);
   for (Index i = 0; i < n; ++i) {
     const auto& p = parameters[static_cast<std::size_t>(i)];
-    problem.start[i] = p.nominal;
+    problem.start[i] = p.start.value_or(p.nominal);
     problem.lowest[i] = p.lowest;
     problem.highest[i] = p.highest;
     problem.step[i] = difference_step * p.scale;

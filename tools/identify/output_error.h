@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,11 @@ namespace feedtwin::tools {
 /// One unknown.
 struct FitParameter {
   std::string key;       ///< of plant/parameter_table, or of an effect
-  double nominal = 0.0;  ///< start, and the middle of the prior
+  double nominal = 0.0;  ///< the middle of the prior
   double lowest = 0.0, highest = 0.0;
-  double scale = 1.0;  ///< > 0: differences are taken in 1e-4 of it, and the prior's deviation is `prior` of it
-  double prior = 1.0;  ///< times the settings' prior
+  double scale = 1.0;             ///< > 0: differences are taken in 1e-4 of it, and the prior's deviation is `prior` of it
+  double prior = 1.0;             ///< times the settings' prior
+  std::optional<double> start{};  ///< of the search; by default where the prior has its middle
 };
 
 /// Simulates one run for several sets of unknowns (a column each). Every channel that the recording has, but the scale.

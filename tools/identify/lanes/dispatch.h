@@ -21,6 +21,9 @@ struct Wanted {
 /// Results of one candidate; empty where not wanted. Meanings as in Outputs.
 struct CandidateResult {
   std::vector<double> torque_Nm, position_m, torque_sensor_Nm, force_sensor_N, power_W;
+  /// Never of the lanes: scale, since their table is rigid; power at the instant at which the tick's command sets in, which
+  /// is what a meter sees that samples with the controller.
+  std::vector<double> scale_position_m, instant_power_W;
 };
 
 /// All candidates on one record, in their order, with `threads` threads (0: one a core).

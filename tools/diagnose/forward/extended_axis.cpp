@@ -1,0 +1,52 @@
+#include "tools/diagnose/forward/extended_axis.h"
+
+#include <algorithm>
+
+#include "plant/effects/registry.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+/// Breakaway friction is never below Coulomb friction.
+void keep_breakaway(plant::LugreParameters& friction) {
+  friction.static_N.pos = std::max(friction.static_N.pos, friction.coulomb_N.pos);
+  friction.static_N.neg = std::max(friction.static_N.neg, friction.coulomb_N.neg);
+}
+
+/// The compliance that was found is that of everything between screw and table: the gap's own contact adds none.
+void join_contact(plant::EffectSetting& gap, const plant::EffectSetting& spring) {
+  const auto &of_gap = *plant::find_effect("backlash"), &of_spring = *plant::find_effect("screw_compliance");
+  plant::EffectSetting copy = spring;
+  for (const char* name : {"stiffness_N_per_m", "damping_Ns_per_m"}) {
+    const auto known = std::ranges::find(of_gap.parameters, name, &plant::EffectParameter::name);
+    const double found = *plant::value_in(copy, of_spring, name);
+    *plant::value_in(gap, of_gap, name) = std::min(known->highest, 1e3 * found);
+  }
+}
+
+}  // namespace
+
+plant::AxisParameters extended(const Candidate& candidate, const std::function<bool(const Active&)>& kept) {
+  plant::AxisParameters axis = candidate.axis;
+  keep_breakaway(axis.ball_screw);
+  keep_breakaway(axis.guide);
+  for (const auto& active : candidate.effects) {
+    const auto* entry = plant::find_effect(active.hypothesis->id);
+    if (entry == nullptr || (kept && !kept(active))) continue;
+    auto setting = plant::preset_of(*entry);
+    for (const auto& [name, value] : active.hypothesis->named(active.q, candidate.axis)) {
+      double* place = plant::value_in(setting, *entry, name);
+      if (place == nullptr) continue;
+      const auto known = std::ranges::find(entry->parameters, name, &plant::EffectParameter::name);
+      *place = std::clamp(value, known->lowest, known->highest);
+    }
+    axis.effects.push_back(std::move(setting));
+  }
+  if (const auto gap = std::ranges::find(axis.effects, "backlash", &plant::EffectSetting::id),
+      spring = std::ranges::find(axis.effects, "screw_compliance", &plant::EffectSetting::id);
+      gap != axis.effects.end() && spring != axis.effects.end())
+    join_contact(*gap, *spring);
+  return axis;
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,163 @@
+#include "tools/diagnose/forward/forward_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tools/diagnose/parallel.h"
+#include "tools/identify/channel_residuals.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+/// Squares of residual and of signal about its mean.
+struct Squares {
+  double residual = 0.0, signal = 0.0;
+};
+using SquaresByChannel = std::map<std::string, Squares>;
+
+void add_squares(const Recording& recording, const Simulated& simulated, SquaresByChannel& sums) {
+  const auto power = recording.at(channel::power_W);
+  const auto meter = power.empty() ? MeteredPower{} : metered_rows(power);
+  const auto residuals = channel_residuals(recording, meter, simulated);
+  for (std::size_t c = 0; c < fitted_channels.size(); ++c) {
+    if (residuals[c].empty()) continue;
+    const auto recorded = recording.at(fitted_channels[c]);
+    std::vector<double> shown(recorded.begin(), recorded.end());
+    if (fitted_channels[c] == channel::power_W) {
+      shown.clear();
+      for (const std::size_t row : meter.rows) shown.push_back(recorded[row]);
+    }
+    double mean = 0.0;
+    for (const double y : shown) mean += y / static_cast<double>(shown.size());
+    auto& sum = sums[std::string(fitted_channels[c])];
+    for (const double y : shown) sum.signal += (y - mean) * (y - mean);
+    for (const double r : residuals[c]) sum.residual += r * r;
+  }
+}
+
+Nrmse as_nrmse(const SquaresByChannel& sums) {
+  Nrmse found;
+  for (const auto& [name, sum] : sums)
+    if (sum.signal > 0.0) found[name] = std::sqrt(sum.residual / sum.signal);
+  return found;
+}
+
+/// Standard deviation of a channel's white part, from third differences, robust against everything that is smooth.
+double white_sigma(std::span<const double> x) {
+  std::vector<double> d;
+  for (std::size_t k = 3; k < x.size(); ++k) d.push_back(std::abs(x[k] - 3.0 * x[k - 1] + 3.0 * x[k - 2] - x[k - 3]));
+  if (d.empty()) return 0.0;
+  const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
+  std::nth_element(d.begin(), middle, d.end());
+  return 1.4826 * *middle / std::sqrt(20.0);
+}
+
+/// What the simulated axis would have recorded: its position on the encoder's grid, its sensors with their noise.
+Recording as_recorded(const Recording& original, const Simulated& simulated, double count_m, double meter_share) {
+  Recording made = original;
+  std::mt19937 random(20190410);
+  std::normal_distribution<double> normal;
+  for (const auto name : fitted_channels) {
+    const auto found = made.channels.find(name);
+    if (found == made.channels.end()) continue;
+    auto& values = found->second;
+    const auto model = simulated_channel(simulated, name);
+    if (name == channel::power_W) {
+      const auto meter = metered_rows(original.at(name));
+      values = as_metered(model, meter);
+      double error_W = 0.0;
+      auto next = meter.rows.begin();
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        if (next != meter.rows.end() && *next == k) error_W = meter_share * values[k] * normal(random), ++next;
+        values[k] += error_W;
+      }
+      continue;
+    }
+    const double sigma = name == channel::torque_cmd_Nm ? 0.0 : white_sigma(original.at(name));
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = model[k] + (sigma > 0.0 ? sigma * normal(random) : 0.0);
+  }
+  auto& position = made.channels.at(std::string(channel::position_m));
+  for (std::size_t k = 0; k < position.size(); ++k)
+    position[k] = std::floor(simulated.position_m[k] / count_m + 0.37) * count_m;  // where the grid stands is chance
+  return made;
+}
+
+}  // namespace
+
+ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case& data) : data_(&data) {
+  runs_.reserve(recordings.size());
+  for (const auto& recording : recordings) runs_.emplace_back(recording, data.axis, data.controller);
+}
+
+Simulated ForwardModel::simulated(const ClosedLoopRun& run, const plant::AxisParameters& parameters) const {
+  plant::FeedAxis axis(without_stops(parameters));
+  Simulated made = simulate_closed_loop(run, axis);
+  if (meter_.sampled) made.power_W.swap(made.instant_power_W);
+  return made;
+}
+
+std::vector<Simulated> ForwardModel::simulate(const ClosedLoopRun& run,
+                                              const std::vector<plant::AxisParameters>& axes) const {
+  std::vector<Simulated> all(axes.size());
+  parallel_for(axes.size(), [&](std::size_t i) { all[i] = simulated(run, axes[i]); });
+  return all;
+}
+
+std::vector<Simulated> ForwardModel::simulate(const plant::AxisParameters& axis) const {
+  std::vector<Simulated> all(runs_.size());
+  parallel_for(runs_.size(), [&](std::size_t r) { all[r] = simulated(runs_[r], axis); });
+  return all;
+}
+
+void ForwardModel::learn_meter(const plant::AxisParameters& axis) {
+  const auto error = [&](bool sampled) {
+    meter_.sampled = sampled;
+    const auto found = nrmse(axis);
+    const auto power = found.find(std::string(channel::power_W));
+    return power == found.end() ? 0.0 : power->second;
+  };
+  const double sampled = error(true);
+  const double all_time = error(false);
+  meter_.sampled = sampled < all_time;
+}
+
+void ForwardModel::learn_meter_noise(const plant::AxisParameters& axis) {
+  const auto power = std::ranges::find(fitted_channels, channel::power_W) - fitted_channels.begin();
+  const auto simulated = simulate(axis);
+  std::vector<double> shares;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const auto recorded = runs_[r].recording().at(channel::power_W);
+    if (recorded.empty()) return;
+    const auto meter = metered_rows(recorded);
+    const auto residual = channel_residuals(runs_[r].recording(), meter, simulated[r])[static_cast<std::size_t>(power)];
+    for (std::size_t i = 1; i < residual.size(); ++i) {
+      const double reading_W = std::hypot(recorded[meter.rows[i]], recorded[meter.rows[i - 1]]);
+      if (reading_W > 0.0) shares.push_back(std::abs(residual[i] - residual[i - 1]) / reading_W);
+    }
+  }
+  if (shares.empty()) return;
+  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+  std::nth_element(shares.begin(), middle, shares.end());
+  meter_.share = 1.4826 * *middle;
+}
+
+Nrmse ForwardModel::nrmse(const plant::AxisParameters& axis) const {
+  const auto simulated = simulate(axis);
+  SquaresByChannel sums;
+  for (std::size_t r = 0; r < runs_.size(); ++r) add_squares(runs_[r].recording(), simulated[r], sums);
+  return as_nrmse(sums);
+}
+
+Nrmse ForwardModel::noise_floor(const plant::AxisParameters& axis) const {
+  const auto simulated = simulate(axis);
+  const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
+  std::vector<Recording> made;
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    made.push_back(as_recorded(runs_[r].recording(), simulated[r], count_m, meter_.share));
+  ForwardModel again(made, *data_);
+  again.take_meter_from(*this);
+  return again.nrmse(axis);
+}
+
+}  // namespace feedtwin::tools::diagnosis

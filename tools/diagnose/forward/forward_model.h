@@ -1,0 +1,48 @@
+#pragma once
+// The second engine: runs simulated forward in closed loop by the plant that the server runs, with the case's controller or
+// a stand-in that tracks the recorded motion. The torque command, the sensors and the power are what tells.
+
+#include <vector>
+
+#include "tools/diagnose/figures.h"
+#include "tools/identify/closed_loop.h"
+
+namespace feedtwin::tools::diagnosis {
+
+class ForwardModel {
+ public:
+  /// @param recordings of the case, or some of them; must outlive this
+  ForwardModel(const std::vector<Recording>& recordings, const Case& data);
+
+  /// Does the power meter average over all time, or over instants sampled with the controller? Whichever comes closer to the
+  /// recordings with this axis; until asked, over all time.
+  void learn_meter(const plant::AxisParameters& axis);
+  /// The scatter of the meter's readings, as a share of each, from the differences of neighbouring residuals.
+  void learn_meter_noise(const plant::AxisParameters& axis);
+  void take_meter_from(const ForwardModel& other) { meter_ = other.meter_; }
+
+  [[nodiscard]] const std::vector<ClosedLoopRun>& runs() const { return runs_; }
+  /// One run of each axis, on all cores.
+  [[nodiscard]] std::vector<Simulated> simulate(const ClosedLoopRun& run,
+                                                const std::vector<plant::AxisParameters>& axes) const;
+  /// Every run of one axis, on all cores.
+  [[nodiscard]] std::vector<Simulated> simulate(const plant::AxisParameters& axis) const;
+
+  /// |y - s| / |y - mean y| by channel over all runs; the scale's as what it shows beyond the encoder, over its travel.
+  [[nodiscard]] Nrmse nrmse(const plant::AxisParameters& axis) const;
+  /// What would be left if this axis had made the recordings: the encoder's grid seen through the closed loop, and the
+  /// sensors' own white noise. From simulating what it would have recorded.
+  [[nodiscard]] Nrmse noise_floor(const plant::AxisParameters& axis) const;
+
+ private:
+  [[nodiscard]] Simulated simulated(const ClosedLoopRun& run, const plant::AxisParameters& axis) const;
+
+  const Case* data_;
+  struct Meter {
+    bool sampled = false;
+    double share = 0.0;
+  } meter_;
+  std::vector<ClosedLoopRun> runs_;
+};
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,24 @@
+#pragma once
+// The last word on the numbers of a named model: output error of the forward closed-loop simulation, with the nominal
+// numbers under their prior and the effects' own free, started from what the inverse model found.
+
+#include "tools/diagnose/forward/forward_model.h"
+#include "tools/identify/output_error.h"
+
+namespace feedtwin::tools::diagnosis {
+
+struct Polished {
+  Candidate model;
+  /// Of the base parameters (in tolerances) and then the effects' working parameters that are not fixed: as Fit has it.
+  Eigen::MatrixXd covariance;
+  double cost = 0.0;
+};
+
+struct PolishSettings {
+  int rounds = 2, most_iterations = 6;
+};
+
+[[nodiscard]] Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candidate& start,
+                              const PolishSettings& settings = {});
+
+}  // namespace feedtwin::tools::diagnosis
