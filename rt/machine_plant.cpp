@@ -42,13 +42,11 @@ void MachinePlant::step(std::span<const double> torques_Nm, const io::MachineReq
   command.pump = request.pump;
   command.engagement = engagement(request);
   machine_.step(command, tick_s);
-  if (recording_) record(tick_s, command.engagement.cutting());
+  if (recording_) record(command.engagement.cutting());
 }
 
-void MachinePlant::record(double tick_s, bool cutting) noexcept {
-  const plant::MachineSignals& s = machine_.signals();
-  const plant::MachineEnergy now = machine_.energy();
-  const auto mean_W = [tick_s](double from_J, double to_J) { return (to_J - from_J) / tick_s; };
+MachineRecord record_of(const plant::MachineSignals& s, const plant::MachineEnergy& last, const plant::MachineEnergy& now,
+                        bool cutting) noexcept FEEDTWIN_REALTIME {
   MachineRecord row;
   row.time_s = now.time_s;
   row.x_m = s.x.position_m;
@@ -60,14 +58,16 @@ void MachinePlant::record(double tick_s, bool cutting) noexcept {
   row.cutting_torque_Nm = s.cut.torque_Nm;
   row.removal_rate_m3_per_s = s.cut.removal_rate_m3_per_s;
   row.spindle_speed_rad_per_s = s.spindle_speed_rad_per_s;
-  row.pump_W = mean_W(last_energy_.pump_J, now.pump_J);
-  row.controller_W = mean_W(last_energy_.controller_J, now.controller_J);
-  row.spindle_W = mean_W(last_energy_.spindle_J(), now.spindle_J());
-  row.feed_W = mean_W(last_energy_.feed_J(), now.feed_J());
+  row.power = plant::mean_power(last, now);
   row.pump_on = s.pump_on;
   row.cutting = cutting;
+  return row;
+}
+
+void MachinePlant::record(bool cutting) noexcept {
+  const plant::MachineEnergy now = machine_.energy();
+  if (!records_.push(record_of(machine_.signals(), last_energy_, now, cutting))) ++dropped_records_;
   last_energy_ = now;
-  if (!records_.push(row)) ++dropped_records_;
 }
 
 }  // namespace feedtwin::rt

@@ -11,15 +11,19 @@
 
 namespace feedtwin::rt {
 
-/// The machine at the end of a tick; powers are means over it.
+/// The machine at the end of a tick; powers are means since the last record.
 struct MachineRecord {
   double time_s = 0.0;
   double x_m = 0.0, y_m = 0.0, x_torque_Nm = 0.0, y_torque_Nm = 0.0;
   double force_x_N = 0.0, force_y_N = 0.0, cutting_torque_Nm = 0.0, removal_rate_m3_per_s = 0.0;
   double spindle_speed_rad_per_s = 0.0;
-  double pump_W = 0.0, controller_W = 0.0, spindle_W = 0.0, feed_W = 0.0;
+  plant::ComponentPower power;
   bool pump_on = false, cutting = false;
 };
+
+/// @param last the energies that the powers count from
+[[nodiscard]] MachineRecord record_of(const plant::MachineSignals& signals, const plant::MachineEnergy& last,
+                                      const plant::MachineEnergy& now, bool cutting) noexcept FEEDTWIN_REALTIME;
 
 class MachinePlant final : public SteppedPlant {
  public:
@@ -41,7 +45,7 @@ class MachinePlant final : public SteppedPlant {
  private:
   /// A slot of the wanted depth where the tool stands over the block and moves; the path's own engagement where it is known.
   [[nodiscard]] plant::Engagement engagement(const io::MachineRequest& request) const noexcept FEEDTWIN_REALTIME;
-  void record(double tick_s, bool cutting) noexcept FEEDTWIN_REALTIME;
+  void record(bool cutting) noexcept FEEDTWIN_REALTIME;
 
   plant::Machine machine_;
   plant::BlockParameters block_;

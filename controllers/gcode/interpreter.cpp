@@ -28,7 +28,6 @@ class Interpreter {
  public:
   explicit Interpreter(const InterpreterSettings& settings)
       : parameters_(settings.parameters), block_delete_(settings.block_delete), at_m_(settings.start_m) {
-    parameters_.numbered.resize(parameter_count, 0.0);
     select_coordinates(0);
   }
 

@@ -1,9 +1,10 @@
 #pragma once
 // The variables of a program: numbered #1 .. #5601 (0 until set) and named #<name>.
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
-#include <vector>
 
 namespace feedtwin::controllers::gcode {
 
@@ -13,8 +14,21 @@ inline constexpr int first_offset_parameter = 5221;  ///< G54: x, y, z; each fur
 inline constexpr int parameters_per_system = 20;
 inline constexpr int parameter_count = 5602;
 
+/// Numbered parameters; 0 until set. Few of the thousands are ever used.
+class NumberedParameters {
+ public:
+  double& operator[](std::size_t index) { return values_[index]; }
+  double operator[](std::size_t index) const {
+    const auto found = values_.find(index);
+    return found == values_.end() ? 0.0 : found->second;
+  }
+
+ private:
+  std::map<std::size_t, double> values_;
+};
+
 struct Parameters {
-  std::vector<double> numbered = std::vector<double>(parameter_count, 0.0);
+  NumberedParameters numbered;
   std::map<std::string, double, std::less<>> named;
 };
 

@@ -21,6 +21,13 @@ double MachineEnergy::balance_error() const noexcept {
   return input_J > 0.0 ? std::abs(input_J - taken_J) / input_J : 0.0;
 }
 
+ComponentPower mean_power(const MachineEnergy& from, const MachineEnergy& to) noexcept FEEDTWIN_REALTIME {
+  const double t = to.time_s - from.time_s;
+  if (t <= 0.0) return {};
+  return {(to.pump_J - from.pump_J) / t, (to.controller_J - from.controller_J) / t, (to.spindle_J() - from.spindle_J()) / t,
+          (to.feed_J() - from.feed_J()) / t};
+}
+
 Machine::Machine(const MachineParameters& parameters, Resolution resolution)
     : parameters_(parameters),
       x_(parameters.x, resolution),

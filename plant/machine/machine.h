@@ -73,6 +73,17 @@ struct MachineEnergy {
   [[nodiscard]] double balance_error() const noexcept;
 };
 
+/// Mean power by component over a time, W. Mechanical and cutting shares are work done, electrical shares are loss.
+struct ComponentPower {
+  double pump_W = 0.0, controller_W = 0.0, spindle_W = 0.0, feed_W = 0.0;
+  [[nodiscard]] double total_W() const noexcept { return pump_W + controller_W + spindle_W + feed_W; }
+  /// Of the servo system (feed drives and spindle) in the total: the source's Fig. 8.
+  [[nodiscard]] double servo_share() const noexcept { return (spindle_W + feed_W) / total_W(); }
+};
+
+/// Between two instants; nothing where no time has passed. Wait-free.
+[[nodiscard]] ComponentPower mean_power(const MachineEnergy& from, const MachineEnergy& to) noexcept FEEDTWIN_REALTIME;
+
 class Machine {
  public:
   explicit Machine(const MachineParameters& parameters, Resolution resolution = one_count);

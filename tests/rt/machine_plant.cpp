@@ -126,7 +126,7 @@ TEST(MachinePlant, RowsHoldTheEnergyOfTheirTicks) {
   double joules = 0.0;
   for (std::size_t i = 0; i < 2000; ++i) {
     const auto& r = rows[i];
-    joules += (r.pump_W + r.controller_W + r.spindle_W + r.feed_W) * 1e-3;
+    joules += r.power.total_W() * 1e-3;
     EXPECT_NEAR(r.time_s, 1e-3 * static_cast<double>(i + 1), 1e-9);
   }
   EXPECT_NEAR(joules / bench.plant.machine().energy().total_J(), 1.0, 1e-9);

@@ -14,7 +14,7 @@ std::string machine_columns() {
          "feed_drive_power_W,power_W,pump_on,cutting";
 }
 
-std::string machine_row(const MachineSample& s) {
+std::string machine_row(const rt::MachineRecord& s) {
   std::string row;
   auto out = std::back_inserter(row);
   fmt::format_to(out, "{:.6f},{:.10g},{:.10g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.8g},{:.6g},", s.time_s, s.x_m, s.y_m,

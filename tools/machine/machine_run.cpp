@@ -14,41 +14,26 @@ namespace {
 
 namespace gcode = controllers::gcode;
 
-/// Energy by group at an instant, to take windows' means from.
-struct Groups {
-  double pump_J, controller_J, spindle_J, feed_J, time_s;
-};
-
-Groups groups(const plant::MachineEnergy& e) {
-  return {e.pump_J, e.controller_J, e.spindle_J(), e.feed_J(), e.time_s};
-}
-
-ComponentPower between(const Groups& from, const Groups& to) {
-  const double t = to.time_s - from.time_s;
-  if (t <= 0.0) return {};
-  return {(to.pump_J - from.pump_J) / t, (to.controller_J - from.controller_J) / t, (to.spindle_J - from.spindle_J) / t,
-          (to.feed_J - from.feed_J) / t};
-}
-
 /// Adds up windows of one kind that are not adjoining.
 struct Window {
-  Groups sum{};
-  void add(const Groups& from, const Groups& to) {
-    sum.pump_J += to.pump_J - from.pump_J;
-    sum.controller_J += to.controller_J - from.controller_J;
-    sum.spindle_J += to.spindle_J - from.spindle_J;
-    sum.feed_J += to.feed_J - from.feed_J;
-    sum.time_s += to.time_s - from.time_s;
+  double pump_J = 0.0, controller_J = 0.0, spindle_J = 0.0, feed_J = 0.0, time_s = 0.0;
+  void add(const plant::MachineEnergy& from, const plant::MachineEnergy& to) {
+    pump_J += to.pump_J - from.pump_J;
+    controller_J += to.controller_J - from.controller_J;
+    spindle_J += to.spindle_J() - from.spindle_J();
+    feed_J += to.feed_J() - from.feed_J();
+    time_s += to.time_s - from.time_s;
   }
-  [[nodiscard]] ComponentPower mean() const { return between({}, sum); }
+  [[nodiscard]] ComponentPower mean() const {
+    if (time_s <= 0.0) return {};
+    return {pump_J / time_s, controller_J / time_s, spindle_J / time_s, feed_J / time_s};
+  }
 };
 
 class Run {
  public:
   Run(const MachineJob& job, int sample_every)
-      : job_(job), controller_(prepare_program(job)), machine_(job.machine), every_(sample_every) {
-    last_sample_ = groups(machine_.energy());
-  }
+      : job_(job), controller_(prepare_program(job)), machine_(job.machine), every_(sample_every) {}
 
   MachineResult go() {
     const auto began = std::chrono::steady_clock::now();
@@ -103,7 +88,7 @@ class Run {
   }
 
   void close_window() {
-    const Groups now = groups(machine_.energy());
+    const plant::MachineEnergy now = machine_.energy();
     if (phase_ == Phase::before) before_.add(window_from_, now);
     if (phase_ == Phase::cutting) cutting_.add(window_from_, now);
     if (phase_ == Phase::after) after_.add(window_from_, now);
@@ -111,12 +96,13 @@ class Run {
   }
 
   void sample(const plant::MachineSignals& s, double contour) {
-    const Groups now = groups(machine_.energy());
+    const plant::MachineEnergy now = machine_.energy();
+    MachineSample row{rt::record_of(s, last_sample_, now, phase_ == Phase::cutting)};
     const auto& at = controller_.setpoint().at_m;
-    result_.samples.push_back({now.time_s, at.x, at.y, s.x.position_m, s.y.position_m, contour, s.cut.force_x_N,
-                               s.cut.force_y_N, s.cut.torque_Nm, s.spindle_speed_rad_per_s, s.cut.removal_rate_m3_per_s,
-                               between(last_sample_, now), s.x.torque_Nm, s.y.torque_Nm, s.pump_on,
-                               phase_ == Phase::cutting});
+    row.x_reference_m = at.x;
+    row.y_reference_m = at.y;
+    row.contour_error_m = contour;
+    result_.samples.push_back(row);
     last_sample_ = now;
   }
 
@@ -137,7 +123,7 @@ class Run {
   int every_;
   MachineResult result_;
   Phase phase_ = Phase::starting;
-  Groups window_from_{}, last_sample_{};
+  plant::MachineEnergy window_from_, last_sample_;
   Window before_, cutting_, after_;
   double before_x_m_ = 0.0, before_y_m_ = 0.0;
 };

@@ -8,25 +8,16 @@
 
 #include "controllers/gcode/program_controller.h"
 #include "plant/machine/machine.h"
+#include "rt/machine_plant.h"
 #include "tools/machine/job.h"
 
 namespace feedtwin::tools {
 
-/// Mean power by component over a window, W. Mechanical and cutting shares are work done, electrical shares are loss.
-struct ComponentPower {
-  double pump_W = 0.0, controller_W = 0.0, spindle_W = 0.0, feed_W = 0.0;
-  [[nodiscard]] double total_W() const noexcept { return pump_W + controller_W + spindle_W + feed_W; }
-  /// Of the servo system (feed drives and spindle) in the total: the source's Fig. 8.
-  [[nodiscard]] double servo_share() const noexcept { return (spindle_W + feed_W) / total_W(); }
-};
+using plant::ComponentPower;
 
-/// One row of a run's figures, and of its recording.
-struct MachineSample {
-  double time_s, x_reference_m, y_reference_m, x_m, y_m, contour_error_m;
-  double force_x_N, force_y_N, cutting_torque_Nm, spindle_speed_rad_per_s, removal_rate_m3_per_s;
-  ComponentPower power;  ///< mean since the last sample
-  double x_torque_Nm, y_torque_Nm;
-  bool pump_on, cutting;
+/// One row of a run's figures, and of its recording; powers are means since the last one.
+struct MachineSample : rt::MachineRecord {
+  double x_reference_m = 0.0, y_reference_m = 0.0, contour_error_m = 0.0;
 };
 
 /// What a run comes to.

@@ -40,24 +40,6 @@ std::string_view state_name(io::DriveState state) noexcept {
   return "";
 }
 
-MachineSample sample_of(const rt::MachineRecord& row) {
-  MachineSample s{};
-  s.time_s = row.time_s;
-  s.x_m = row.x_m;
-  s.y_m = row.y_m;
-  s.x_torque_Nm = row.x_torque_Nm;
-  s.y_torque_Nm = row.y_torque_Nm;
-  s.force_x_N = row.force_x_N;
-  s.force_y_N = row.force_y_N;
-  s.cutting_torque_Nm = row.cutting_torque_Nm;
-  s.spindle_speed_rad_per_s = row.spindle_speed_rad_per_s;
-  s.removal_rate_m3_per_s = row.removal_rate_m3_per_s;
-  s.power = {row.pump_W, row.controller_W, row.spindle_W, row.feed_W};
-  s.pump_on = row.pump_on;
-  s.cutting = row.cutting;
-  return s;
-}
-
 std::string header(const RunLogSettings& settings) {
   std::string columns = "time_s,torque_cmd_Nm,position_m,scale_position_m,";
   if (settings.with_forces) columns += "torque_sensor_Nm,force_sensor_N,";
@@ -171,7 +153,7 @@ void RunLog::drain_machine() {
   std::array<rt::MachineRecord, 256> rows;
   auto& ring = settings_.machine->records();
   for (std::size_t count = ring.pop(rows); count > 0; count = ring.pop(rows)) {
-    for (std::size_t i = 0; machine_file_ && i < count; ++i) machine_file_->add(machine_row(sample_of(rows[i])));
+    for (std::size_t i = 0; machine_file_ && i < count; ++i) machine_file_->add(machine_row(rows[i]));
   }
 }
 
