@@ -15,7 +15,7 @@ class JerkLimitedMove {
 
   [[nodiscard]] double duration_s() const noexcept { return profile_.duration_s(); }
   /// Position counts from the start of the move. Wait-free.
-  [[nodiscard]] Reference at(double time_s) const noexcept {
+  [[nodiscard]] Reference at(double time_s) const noexcept FEEDTWIN_REALTIME {
     if (time_s <= 0.0) return {};
     const Reference r = profile_.at(time_s);
     return {direction_ * r.position_m, direction_ * r.velocity_m_per_s, direction_ * r.acceleration_m_per_s2};

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "controllers/reference.h"
+#include "plant/realtime.h"
 
 namespace feedtwin::controllers {
 
@@ -14,7 +15,7 @@ class Motion {
  public:
   virtual ~Motion() = default;
   /// Where the axis should be `time_s` after the start. Wait-free.
-  [[nodiscard]] virtual Reference at(double time_s) const noexcept = 0;
+  [[nodiscard]] virtual Reference at(double time_s) const noexcept FEEDTWIN_REALTIME = 0;
 };
 
 /// How far and how fast a motion goes.
