@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "plant/effects/registry.h"
+#include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/sentence.h"
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr double z90 = 1.645;
 constexpr double smallest_share_held_out = 0.35;
+constexpr double least_error_ratio = 0.0;
 constexpr double smallest_remainder_N = 1.0;
 
 InverseModel model_of(const std::vector<Recording>& recordings, const plant::AxisParameters& axis) {
@@ -160,6 +163,22 @@ void plan_next(Diagnosis& result) {
   }
 }
 
+/// Drops what the second engine does not bear out.
+void keep_confirmed(const ForwardModel& unseen, const Fitter& fitter, SearchResult& found, Fit& fit,
+                    const std::function<void(std::string_view)>& progress) {
+  for (std::size_t e = fit.model.effects.size(); e-- > 0;) {
+    const auto* hypothesis = fit.model.effects[e].hypothesis;
+    const auto seen = confirm(unseen, fitter, found.whitening, fit.model, e);
+    progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
+                         seen.channel.empty() ? "no channel" : seen.channel, seen.error_ratio));
+    if (seen.error_ratio > least_error_ratio) continue;
+    Candidate less = fit.model;
+    less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(e));
+    fit = fitter.fit(less, found.whitening, 6);
+    std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)>& progress) {
@@ -170,11 +189,15 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   progress("following friction along " + std::to_string(data.fit.size()) + " runs");
   const InverseModel model = model_of(data.fit, data.axis);
   const Fitter fitter(model, data.axis);
-  const SearchResult found = search(fitter, Bar{}, progress);
+  SearchResult found = search(fitter, Bar{}, progress);
   Fit fit = found.final;
   double inflation = std::sqrt(std::max(1.0, fit.cost / static_cast<double>(model.rows())));
   ForwardModel forward(data.fit, data);
   forward.learn_meter(extended(fit.model));
+  const auto& unseen = data.holdout.empty() ? data.fit : data.holdout;
+  ForwardModel simulated(unseen, data);
+  simulated.take_meter_from(forward);
+  keep_confirmed(simulated, fitter, found, fit, progress);
   if (!fit.model.effects.empty()) {
     progress("polishing the numbers by closed-loop simulation");
     auto polished = polish(forward, fitter, fit.model);
@@ -210,7 +233,6 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
 
   progress("figures on what the fit did not see");
   const Candidate nominal{data.axis, {}};
-  const auto& unseen = data.holdout.empty() ? data.fit : data.holdout;
   const InverseModel held_out = model_of(unseen, data.axis);
   if (!missing && !data.holdout.empty()) {
     const Learned learned = learn_remainder(model, held_out, fit.model);
@@ -222,11 +244,14 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
       extend(result.updated, learned);
     }
   }
-  ForwardModel simulated(unseen, data);
   forward.learn_meter_noise(result.updated);
   simulated.take_meter_from(forward);
   result.holdout_inverse = figures(held_out, nominal, found.recalibrated.model, fit.model);
   result.holdout = figures(simulated, data.axis, extended(found.recalibrated.model), result.updated);
+  std::vector<const Hypothesis*> named;
+  for (const auto& effect : result.effects) named.push_back(effect.hypothesis);
+  result.pictures =
+      pictures(simulated, held_out.tracks(), {data.axis, extended(found.recalibrated.model), result.updated}, named);
   result.energy_before = energy(held_out, nominal);
   result.energy_after = energy(held_out, fit.model);
   plan_next(result);

@@ -14,6 +14,7 @@
 #include "tools/diagnose/search.h"
 #include "tools/diagnose/setup_checks.h"
 #include "tools/recording/case.h"
+#include "tools/report/figure.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -53,6 +54,7 @@ struct Diagnosis {
   std::vector<std::string> next_separates;
   double detection_limit_N = 0.0;  ///< RMS of the weakest effect that would have been named
   plant::AxisParameters updated;   ///< recalibrated and extended
+  std::vector<Figure> pictures;    ///< where the mismatch lives, before and after, on held-out runs
 };
 
 /// @param progress called with what is being done

@@ -94,6 +94,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   out["next_experiment"] = {{"move", diagnosis.next_move}, {"separates", diagnosis.next_separates}};
   out["detection_limit_N"] = diagnosis.detection_limit_N;
   out["updated_axis"] = updated_axis;
+  out["figures"] = tools::to_json(diagnosis.pictures);
   return out;
 }
 

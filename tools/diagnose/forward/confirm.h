@@ -1,0 +1,19 @@
+#pragma once
+// Two engines must agree: an effect that the inverse model asked for is named only if the closed-loop simulation of runs
+// that were not fitted comes closer to the recording with it than with the best model without it.
+
+#include "tools/diagnose/forward/forward_model.h"
+
+namespace feedtwin::tools::diagnosis {
+
+struct Confirmation {
+  std::string channel;       ///< that the effect helps most
+  double error_ratio = 1.0;  ///< error without it over error with it, in that channel
+};
+
+/// @param forward runs to judge by
+/// @param model fitted by the inverse model, the effect among others in it
+[[nodiscard]] Confirmation confirm(const ForwardModel& forward, const Fitter& fitter, const Whitening& whitening,
+                                   const Candidate& model, std::size_t effect);
+
+}  // namespace feedtwin::tools::diagnosis
