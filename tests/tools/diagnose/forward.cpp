@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "plant/effects/registry.h"
 #include "tests/support/made_case.h"
@@ -147,7 +148,9 @@ TEST(ForwardModel, ClosedLoopOfTheRealRecordOnLapsThatWereNotFitted) {
   whole.sample_s = 1e-3;
   Case data;
   data.axis.axis = {.lead_m = lead_m, .stroke_m = 0.6, .torque_limit_Nm = 0.14, .encoder_counts_per_rev = 50000.0};
-  data.axis.motor = {.inertia_kgm2 = 1.2e-5, .damping_Nms = {1e-5, 1e-5}, .coulomb_N = {5.0, 5.0}};
+  data.axis.motor.inertia_kgm2 = 1.2e-5;
+  data.axis.motor.damping_Nms = {1e-5, 1e-5};
+  data.axis.motor.coulomb_N = {5.0, 5.0};
   data.axis.ball_screw_inertia_kgm2 = 2e-6;
   data.axis.ball_screw = {.coulomb_N = {12.0, 12.0},
                           .static_N = {15.0, 15.0},
