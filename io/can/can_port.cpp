@@ -139,6 +139,7 @@ void CanPort::flush() noexcept FEEDTWIN_REALTIME {
 }
 
 std::uint64_t CanPort::receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME {
+  asked_ = true;
   if (!lockstep_) drain();
   std::uint64_t fresh = 0;
   for (std::size_t i = 0; i < devices_.size() && i < newest.size(); ++i) {
@@ -150,9 +151,20 @@ std::uint64_t CanPort::receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_
 }
 
 void CanPort::send(const TickReport& /*tick*/, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME {
+  if (!asked_ && sent_before_) serve_unasked();  // the first report comes before the first tick
+  asked_ = false;
+  sent_before_ = true;
   const std::int64_t now_ns = link_->now_ns();
   for (std::size_t i = 0; i < devices_.size() && i < axes.size(); ++i) devices_[i]->report(axes[i], now_ns, fresh_);
   flush();
+}
+
+void CanPort::serve_unasked() noexcept FEEDTWIN_REALTIME {
+  drain();
+  AxisRequest unused;
+  for (auto& device : devices_) {
+    if (device->take_request(unused) && unused.enable) ++counters_.not_in_command;
+  }
 }
 
 bool CanPort::wait_for_request(std::int64_t until_ns) noexcept {
@@ -183,6 +195,7 @@ std::vector<Counter> CanPort::counters() const {
   add("delayed", "ticks in which the adapter had no room (ENOBUFS)", counters_.delayed);
   add("replaced", "cyclic frames that waited and were overtaken by a newer one", counters_.replaced);
   add("lost", "frames that could not be sent", counters_.lost + fresh_.refused(), true);
+  add("not_in_command", "enabled requests that came while another port commands, not used", counters_.not_in_command);
   add("bus_recoveries", "times that the bus came back", counters_.recoveries, true);
   link_->add_counters(all);
   for (std::size_t i = 0; i < devices_.size(); ++i) devices_[i]->add_counters("axis " + std::to_string(i) + " ", all);

@@ -21,6 +21,7 @@ struct CanPortCounters {
   std::uint64_t replaced = 0;            ///< cyclic frames that waited and were overtaken by a newer one
   std::uint64_t lost = 0;                ///< frames that could not be sent, bus off or queue full
   std::uint64_t recoveries = 0;          ///< times that the bus came back
+  std::uint64_t not_in_command = 0;      ///< enabled requests that came while another port commands: not used
 };
 
 class CanPort final : public Port {
@@ -50,6 +51,8 @@ class CanPort final : public Port {
  private:
   /// Take frames from the link until there are none, `most_frames` are reached or a step of the plant is due.
   bool drain() noexcept FEEDTWIN_REALTIME;
+  /// Answers the bus where another port commands and nobody asks this one.
+  void serve_unasked() noexcept FEEDTWIN_REALTIME;
   void flush() noexcept FEEDTWIN_REALTIME;
   void enqueue() noexcept FEEDTWIN_REALTIME;
   void supervise(const std::stop_token& stop);
@@ -59,6 +62,8 @@ class CanPort final : public Port {
   std::vector<std::unique_ptr<Device>> devices_;
   bool supervised_;
   bool started_ = false;
+  bool sent_before_ = false;
+  bool asked_ = false;            ///< since the last send()
   bool lockstep_ = false;         ///< the loop waits for us: frames are taken there, one step of the plant at a time
   std::int64_t trigger_ns_ = -1;  ///< arrival of the frame that asked for a reply in this drain
   std::int64_t reply_ns_ = -1;    ///< from there to the reply's leaving

@@ -49,7 +49,7 @@ constexpr std::uint32_t mapped(std::uint32_t index_and_sub, std::uint32_t bits) 
 }
 
 struct Table {
-  std::array<ObjectEntry, 256> entries{};
+  std::array<ObjectEntry, 256> entries{};  // NOLINT(bugprone-invalid-enum-default-initialization): beyond size, never read
   std::size_t size = 0;
   constexpr void add(const ObjectEntry& entry) { entries[size++] = entry; }
 

@@ -48,8 +48,8 @@ struct Cut {
 
 struct Request {
   Refusal refusal = Refusal::none;
-  Function function{};
-  RegisterRange read, write;              ///< in input registers for read_input, holding registers otherwise
+  Function function{};        // NOLINT(bugprone-invalid-enum-default-initialization): of no meaning where refused
+  RegisterRange read, write;  ///< in input registers for read_input, holding registers otherwise
   std::span<const std::uint8_t> written;  ///< two bytes a register, high byte first
 };
 

@@ -10,7 +10,7 @@
 #include "io/modbus/request.h"
 #include "io/tally.h"
 
-typedef struct _modbus modbus_t;
+typedef struct _modbus modbus_t;  // NOLINT(bugprone-reserved-identifier): libmodbus' own name
 
 namespace feedtwin::io::modbus {
 

@@ -8,6 +8,7 @@
 
 #include "controllers/gcode/planner.h"
 #include "tools/config/input_error.h"
+#include "tools/run/axis_components.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -173,10 +174,7 @@ std::vector<std::pair<std::string, double>> energy_by_component(const plant::Mac
       {"spindle_cutting", e.spindle.cutting_J},
   };
   const auto add_axis = [&](const std::string& letter, const plant::AxisEnergy& a) {
-    all.emplace_back(letter + "_motor_electrical", a.motor_electrical_J);
-    all.emplace_back(letter + "_motor_mechanical", a.motor_mechanical_J);
-    all.emplace_back(letter + "_ball_screw", a.ball_screw_J);
-    all.emplace_back(letter + "_guide", a.guide_J);
+    for (const auto& component : axis_components) all.emplace_back(letter + "_" + component.name, a.*component.joules);
     all.emplace_back(letter + "_cutting", a.cutting_J);
     all.emplace_back(letter + "_end_stop", a.end_stop_J);
   };

@@ -7,6 +7,7 @@
 #include "plant/parameter_table.h"
 #include "tools/machine/machine_json.h"
 #include "tools/machine/machine_run.h"
+#include "tools/run/axis_components.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -38,10 +39,9 @@ json bins(const rt::LatencyHistogram& histogram) {
 }
 
 json to_json(const plant::AxisEnergy& e) {
-  return {{"motor_electrical", e.motor_electrical_J},
-          {"motor_mechanical", e.motor_mechanical_J},
-          {"ball_screw", e.ball_screw_J},
-          {"guide", e.guide_J}};
+  json out;
+  for (const auto& component : axis_components) out[component.name] = e.*component.joules;
+  return out;
 }
 
 plant::AxisEnergy sum(const std::vector<plant::AxisEnergy>& axes) {

@@ -49,7 +49,7 @@ class BusWithMaster {
   /// One tick of the plant server, then the master hears what has come.
   void tick() {
     bus.run_to(bus.now_ns() + tick_ns);
-    fresh = port->receive(requests);
+    if (!another_commands) fresh = port->receive(requests);
     for (std::size_t i = 0; i < reports.size(); ++i) {
       reports[i].sequence = requests[i].sequence;
       if (on_tick) on_tick(i);
@@ -154,6 +154,7 @@ class BusWithMaster {
   std::vector<AxisReport> reports;
   std::vector<Frame> heard;
   std::uint64_t fresh = 0;
+  bool another_commands = false;  ///< this port only listens
   std::function<void(std::size_t)> on_tick;
 };
 

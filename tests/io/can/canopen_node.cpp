@@ -361,5 +361,22 @@ TEST(CanopenNode, AMachinesSpindleAndAuxiliaryFunctionsByObjectAndByPdo) {
   EXPECT_FALSE(machine.pump);
 }
 
+TEST(CanopenNode, OnABusThatOnlyListensADriveAnswersAndItsTorqueIsNotUsed) {
+  BusWithMaster b;
+  b.another_commands = true;
+  b.nmt(0x81);
+  EXPECT_EQ(b.last(0x701), make_frame(0x701, {0}));
+  EXPECT_EQ(b.read(0x1000), 0x0002'0192);
+  b.enable();
+  b.reports[0].encoder_counts = 1234;
+  b.tick();
+  b.heard.clear();
+  b.command(1, 0x0F, 500);
+  ASSERT_EQ(b.count(0x181), 1);
+  EXPECT_EQ(load<std::int32_t>(*b.last(0x181), 2), 1234);
+  EXPECT_EQ(b.requests[0].torque_Nm, 0.0);
+  EXPECT_GT(b.port->totals().not_in_command, 0U);
+}
+
 }  // namespace
 }  // namespace feedtwin::io::can

@@ -56,7 +56,7 @@ double white_sigma(std::span<const double> x) {
 /// What the simulated axis would have recorded: its position on the encoder's grid, its sensors with their noise.
 Recording as_recorded(const Recording& original, const Simulated& simulated, double count_m, double meter_share) {
   Recording made = original;
-  std::mt19937 random(20190410);
+  std::mt19937 random(20190410);  // NOLINT(bugprone-random-generator-seed): the same answer for the same input
   std::normal_distribution<double> normal;
   for (const auto name : fitted_channels) {
     const auto found = made.channels.find(name);
