@@ -192,6 +192,7 @@ bool Reproduction::targets_met() const noexcept {
 
 const std::vector<std::string>& free_choices() {
   static const std::vector<std::string> all{
+      // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): sentences longer than a line
       "Path: a U of 41 mm, 12 mm and back in the block, then round outside to the start; the source shows a path without "
       "numbers.",
       "Feed 6 mm/s throughout: 16 s of cut and 30 s in all, which 0.73 and 0.60 kJ at 25 and 15 W ask for.",
