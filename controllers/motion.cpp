@@ -4,6 +4,7 @@
 
 #include "controllers/s_curve.h"
 #include "controllers/sine.h"
+#include "controllers/stair.h"
 #include "controllers/triangle.h"
 
 namespace feedtwin::controllers {
@@ -14,6 +15,7 @@ std::span<const MotionKind> motion_kinds() noexcept {
                  make_triangle},
       MotionKind{"sine", "sinusoidal velocity: the source's second motion", make_sine},
       MotionKind{"s_curve", "jerk-limited moves from end to end with dwells", make_s_curve},
+      MotionKind{"stair", "out and back at one constant speed after another: for Stribeck and loss curves", make_stair},
   };
   return kinds;
 }

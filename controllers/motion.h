@@ -26,6 +26,9 @@ struct MotionSettings {
   double acceleration_m_per_s2 = 1.0;  ///< largest, where the motion has one
   double jerk_m_per_s3 = 50.0;         ///< largest, S-curve only
   double dwell_s = 0.2;                ///< pause at the ends, S-curve only
+  double slowest_m_per_s = 0.0;        ///< first speed of a stair; 0: a hundredth of the largest
+  int steps = 10;                      ///< speeds of a stair, at least 2
+  double hold_s = 0.4;                 ///< at each of them
 };
 
 struct MotionKind {

@@ -19,7 +19,10 @@ MotionSettings draw(std::mt19937_64& random) {
           .speed_m_per_s = logarithmic(random, 1e-4, 1.0),
           .acceleration_m_per_s2 = logarithmic(random, 0.05, 20.0),
           .jerk_m_per_s3 = logarithmic(random, 1.0, 2000.0),
-          .dwell_s = std::uniform_real_distribution<double>(0.0, 0.5)(random)};
+          .dwell_s = std::uniform_real_distribution<double>(0.0, 0.5)(random),
+          .slowest_m_per_s = logarithmic(random, 1e-4, 1.0),
+          .steps = std::uniform_int_distribution<int>(2, 12)(random),
+          .hold_s = std::uniform_real_distribution<double>(0.0, 0.5)(random)};
 }
 
 std::string text(const MotionKind& kind, const MotionSettings& s) {

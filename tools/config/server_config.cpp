@@ -85,6 +85,9 @@ LoopbackSettings loopback_of(TomlFile& file, const std::string& table, const pla
   motion.acceleration_m_per_s2 = file.number(at("acceleration_m_per_s2"), 1e-3, 1e3, 1.0);
   motion.jerk_m_per_s3 = file.number(at("jerk_m_per_s3"), 1e-2, 1e6, 50.0);
   motion.dwell_s = file.number(at("dwell_s"), 0.0, 1e3, 0.2);
+  motion.slowest_m_per_s = file.number(at("slowest_m_per_s"), 0.0, 10.0, 0.0);
+  motion.steps = static_cast<int>(file.integer(at("steps"), 2, 1000, 10));
+  motion.hold_s = file.number(at("hold_s"), 0.0, 1e3, 0.4);
 
   const double mass_kg = plant::make_axis_model(axis).mass_kg;
   auto& gains = settings.gains;
