@@ -86,13 +86,38 @@ class CsvParser {
     }
   }
 
+  /// A word of a log, as against a number gone wrong.
+  static bool is_word(std::string_view cell) {
+    const bool letters =
+        std::ranges::all_of(cell, [](char c) { return (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == ' '; });
+    return letters && cell.size() > 3 && cell != "infinity";
+  }
+
+  /// What the first row shows words in is a column of words.
+  void find_words(std::string_view line) {
+    for (auto& column : table_.columns) {
+      const std::size_t comma = line.find(',');
+      column.words = is_word(line.substr(0, comma));
+      if (comma == std::string_view::npos) return;
+      line.remove_prefix(comma + 1);
+    }
+  }
+
   void row(std::string_view line) {
+    if (table_.columns.front().values.empty()) find_words(line);
     const char* at = line.data();
     const char* const end = at + line.size();
     const std::size_t width = table_.columns.size();
     for (std::size_t i = 0; i < width; ++i) {
       double value{};
-      const auto [stop, error] = std::from_chars(at, end, value);
+      auto [stop, error] = std::from_chars(at, end, value);
+      if (table_.columns[i].words) {
+        const char* const cell_end = std::find(at, end, ',');
+        if (is_word({at, cell_end})) {
+          stop = cell_end;
+          error = std::errc{};
+        }
+      }
       const bool last = i + 1 == width;
       const bool whole = error == std::errc{} && (last ? stop == end : stop != end && *stop == ',');
       if (!whole || !std::isfinite(value)) fail_row(line, i, {at, static_cast<std::size_t>(end - at)});

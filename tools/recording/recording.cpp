@@ -74,6 +74,7 @@ Recording recording_from(Table table, const ChannelMap& map) {
   const auto take = [&](std::string_view channel_name, const ChannelSource& source) {
     const Column* column = table.find(source.column);
     if (column == nullptr) return false;
+    if (column->words) throw InputError(table.file, 2, source.column, "expected numbers, found words");
     auto& values = recording.channels[std::string(channel_name)];
     values.resize(column->values.size());
     std::ranges::transform(column->values, values.begin(),

@@ -10,6 +10,7 @@ namespace feedtwin::tools {
 struct Column {
   std::string name;
   std::vector<double> values;
+  bool words = false;  ///< holds words (a log's drive_state): no numbers to learn from, the values are all 0
 };
 
 struct Table {

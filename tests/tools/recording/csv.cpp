@@ -31,6 +31,8 @@ TEST(Csv, ReadsNamesAndNumbers) {
 TEST(Csv, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(complaint(""), "run.csv: is empty; expected a header line and rows of numbers");
   EXPECT_EQ(complaint("a,b\n"), "run.csv:1: holds no rows of numbers after the header line");
+  EXPECT_EQ(complaint("a,b\n1,enabled\n2,fault\n"), "") << "a log's words";
+  EXPECT_EQ(complaint("a,b\n1,enabled\n2,7x\n"), "run.csv:3:2: b: expected a finite number, found '7x'");
   EXPECT_EQ(complaint("a,b\n1,2\n1,two\n"), "run.csv:3:2: b: expected a finite number, found 'two'");
   EXPECT_EQ(complaint("a,b\n1,nan\n"), "run.csv:2:2: b: expected a finite number, found 'nan'");
   EXPECT_EQ(complaint("a,b\ninf,1\n"), "run.csv:2:1: a: expected a finite number, found 'inf'");
