@@ -18,7 +18,7 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
   const auto kinds = controllers::motion_kinds();
   const auto kind = std::ranges::find(kinds, run.motion, &controllers::MotionKind::name);
   const auto motion = kind->make(run.settings);
-  plant::FeedAxis axis(parameters, plant::tenth_of_a_count);
+  plant::FeedAxis axis(parameters, run.resolution);
   const double start_m = motion->at(0.0).position_m;
   axis.place(start_m);
   controllers::Cascade cascade(gains);
@@ -32,6 +32,8 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
   const auto push = [&recording](std::string_view name, double value) {
     recording.channels[std::string(name)].push_back(value);
   };
+  const auto on_grid = [](double value, double grid) { return grid > 0.0 ? grid * std::round(value / grid) : value; };
+  double metered_W = 0.0, read_W = 0.0;
   const auto rows = static_cast<int>(run.duration_s * 1e3);
   for (int i = 0; i < rows; ++i) {
     const double time_s = i * 1e-3;
@@ -46,11 +48,18 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
     if (run.sensors) {
       push(channel::scale_position_m, run.quantised ? std::round(position_m * 1e8) * 1e-8 : position_m);
       const auto sensors = axis.force_sensors({.torque_Nm = torque_Nm});
-      push(channel::torque_sensor_Nm, sensors.torque_sensor_Nm + run.torque_noise_Nm * unit(random));
-      push(channel::force_sensor_N, sensors.force_sensor_N + run.force_noise_N * unit(random));
+      push(channel::torque_sensor_Nm,
+           on_grid(sensors.torque_sensor_Nm + run.torque_noise_Nm * unit(random), run.torque_grid_Nm));
+      push(channel::force_sensor_N, on_grid(sensors.force_sensor_N + run.force_noise_N * unit(random), run.force_grid_N));
     }
     axis.step({.torque_Nm = torque_Nm}, 1e-3);
-    if (run.sensors) push(channel::power_W, axis.signals().metered_power_W);
+    if (run.sensors) {
+      if (axis.signals().metered_power_W != metered_W) {  // a new reading
+        metered_W = axis.signals().metered_power_W;
+        read_W = on_grid(metered_W + run.power_noise_W * unit(random), run.power_grid_W);
+      }
+      push(channel::power_W, read_W);
+    }
   }
   return recording;
 }

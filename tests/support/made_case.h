@@ -8,6 +8,7 @@
 
 #include "controllers/cascade.h"
 #include "controllers/motion.h"
+#include "plant/integrator.h"
 #include "plant/parameter_table.h"
 #include "plant/parameters.h"
 #include "tools/recording/recording.h"
@@ -22,6 +23,9 @@ struct MadeRun {
   bool sensors = true;  ///< scale, torque, force, power
   bool quantised = true;
   double torque_noise_Nm = 0.0, force_noise_N = 0.0;  ///< of the two sensors
+  double torque_grid_Nm = 0.0, force_grid_N = 0.0;    ///< of their converter; 0: none
+  double power_noise_W = 0.0, power_grid_W = 0.0;     ///< of the meter's readings
+  plant::Resolution resolution = plant::tenth_of_a_count;
   unsigned seed = 1;
 };
 

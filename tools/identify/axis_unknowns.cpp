@@ -62,6 +62,8 @@ std::vector<FitParameter> axis_unknowns(const plant::AxisParameters& nominal, co
   }
   const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
   unknowns.push_back({position_offset_key, 0.0, -5.0 * count_m, 5.0 * count_m, count_m});
+  for (const auto& recording : recordings)
+    unknowns.push_back({std::string(start_offset_key) + recording.file, 0.0, -2.0 * count_m, 2.0 * count_m, count_m});
   if (with_force_offset) {
     const double scale = 0.2 * (nominal.ball_screw.coulomb_N.pos + nominal.ball_screw.coulomb_N.neg);
     unknowns.push_back({force_offset_key, 0.0, -10.0 * scale, 10.0 * scale, scale});
@@ -69,8 +71,16 @@ std::vector<FitParameter> axis_unknowns(const plant::AxisParameters& nominal, co
   return unknowns;
 }
 
+void start_from(std::vector<FitParameter>& unknowns, const plant::AxisParameters& axis) {
+  plant::AxisParameters from = axis;
+  for (auto& unknown : unknowns) {
+    if (const auto* entry = plant::find_parameter(unknown.key))
+      unknown.start = std::clamp(entry->in(from), unknown.lowest, unknown.highest);
+  }
+}
+
 CandidateAxis axis_at(const plant::AxisParameters& nominal, const std::vector<FitParameter>& unknowns,
-                      const Eigen::VectorXd& point) {
+                      const Eigen::VectorXd& point, std::string_view file) {
   CandidateAxis candidate{nominal};
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     const double value = point[static_cast<Eigen::Index>(i)];
@@ -78,6 +88,8 @@ CandidateAxis axis_at(const plant::AxisParameters& nominal, const std::vector<Fi
       candidate.position_offset_m = value;
     } else if (unknowns[i].key == force_offset_key) {
       candidate.force_offset_N = value;
+    } else if (unknowns[i].key.starts_with(start_offset_key)) {
+      if (std::string_view(unknowns[i].key).substr(start_offset_key.size()) == file) candidate.start_offset_m = value;
     } else {
       plant::find_parameter(unknowns[i].key)->in(candidate.parameters) = value;
     }
@@ -90,7 +102,8 @@ CandidateAxis axis_at(const plant::AxisParameters& nominal, const std::vector<Fi
 BatchSimulator lane_simulator(const plant::AxisParameters& nominal, const std::vector<FitParameter>& unknowns) {
   return [nominal, unknowns](const ClosedLoopRun& run, const Eigen::MatrixXd& points) {
     std::vector<CandidateAxis> candidates;
-    for (Eigen::Index i = 0; i < points.cols(); ++i) candidates.push_back(axis_at(nominal, unknowns, points.col(i)));
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      candidates.push_back(axis_at(nominal, unknowns, points.col(i), run.recording().file));
     return simulate_closed_loop(run, candidates, wanted_for(run.recording()));
   };
 }

@@ -1,5 +1,8 @@
 #include "tools/identify/channel_residuals.h"
 
+#include <algorithm>
+#include <numbers>
+
 namespace feedtwin::tools {
 namespace {
 
@@ -17,9 +20,23 @@ std::vector<double> slip_residual(const Recording& recording, const Simulated& s
 
 }  // namespace
 
+std::vector<double> with_recorded_work(const ClosedLoopRun& run, const Simulated& simulated) {
+  const auto view = run.view();
+  const double limit_Nm = view.torque_limit_Nm, to_power = 2.0 * std::numbers::pi / run.nominal().axis.lead_m / view.tick_s;
+  std::vector<double> power_W = simulated.power_W;
+  for (std::size_t i = 0; i + 1 < view.samples; ++i) {
+    const auto work = [limit_Nm](double torque_Nm, double travel_m) {
+      return std::clamp(torque_Nm, -limit_Nm, limit_Nm) * travel_m;
+    };
+    power_W[i] += to_power * (work(view.torque_Nm[i], view.position_m[i + 1] - view.position_m[i]) -
+                              work(simulated.torque_Nm[i], simulated.position_m[i + 1] - simulated.position_m[i]));
+  }
+  return power_W;
+}
+
 lanes::Wanted wanted_for(const Recording& recording) {
   return {.torque = true,
-          .position = false,
+          .position = recording.has(channel::power_W),
           .torque_sensor = recording.has(channel::torque_sensor_Nm),
           .force_sensor = recording.has(channel::force_sensor_N),
           .power = recording.has(channel::power_W)};

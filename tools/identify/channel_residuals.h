@@ -19,6 +19,10 @@ inline constexpr std::array fitted_channels{channel::torque_cmd_Nm, channel::tor
 /// A channel as simulated; empty where it was not asked for.
 [[nodiscard]] std::span<const double> simulated_channel(const Simulated& simulated, std::string_view name);
 
+/// Drive input with the recorded mechanical work in place of the simulated one: the stand-in answers the encoder's grid
+/// with torque, which at speed is more power than what the loss coefficients are to be told by.
+[[nodiscard]] std::vector<double> with_recorded_work(const ClosedLoopRun& run, const Simulated& simulated);
+
 /// Residuals of the fitted channels, empty where the recording or the simulation lacks one. Power: one residual for each
 /// meter reading. Scale: what it shows beyond the motor encoder, without its mean, since where a ruler has its zero tells
 /// nothing.

@@ -45,7 +45,7 @@ plant::AxisParameters without_stops(plant::AxisParameters parameters) {
 
 ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParameters& nominal,
                              const std::optional<controllers::CascadeGains>& controller, const StandInSettings& stand_in)
-    : recording_(&recording) {
+    : recording_(&recording), view_{}, nominal_(nominal) {
   if (controller) reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
   const auto position_m = recording.at(channel::position_m);
   view_ = {.samples = recording.size(),
@@ -103,27 +103,32 @@ std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run, std::span<
                                             const lanes::Wanted& wanted, unsigned threads) {
   std::vector<lanes::Candidate> models;
   models.reserve(candidates.size());
-  for (const auto& [parameters, position_offset_m, force_offset_N] : candidates) {
+  for (const auto& [parameters, position_offset_m, force_offset_N, start_offset_m] : candidates) {
     const auto& motor = parameters.motor;
     models.push_back({plant::make_axis_model(without_stops(parameters)), motor.electrical_idle_W,
                       motor.electrical_linear_Ws_per_m.pos, motor.electrical_linear_Ws_per_m.neg,
                       motor.electrical_quadratic_Ws2_per_m2.pos, motor.electrical_quadratic_Ws2_per_m2.neg,
-                      position_offset_m, force_offset_N});
+                      position_offset_m, force_offset_N, start_offset_m});
   }
   return lanes::simulate_candidates(run.view(), models, wanted, threads);
 }
 
-MeteredPower metered_rows(std::span<const double> power_W) {
+MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_window) {
   MeteredPower meter;
   for (std::size_t i = 1; i < power_W.size(); ++i) {
     if (power_W[i] != power_W[i - 1]) meter.rows.push_back(i);
   }
   std::vector<std::size_t> spacing;
   for (std::size_t i = 1; i < meter.rows.size(); ++i) spacing.push_back(meter.rows[i] - meter.rows[i - 1]);
-  if (!spacing.empty()) {
+  if (spacing.size() >= 3) {
     const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
     std::nth_element(spacing.begin(), middle, spacing.end());
     meter.window = *middle;
+  } else {  // the meter showed the same all along, as over an axis at rest: its window is known from elsewhere
+    meter.window = std::max<std::size_t>(expected_window, 1);
+    const std::size_t first = meter.rows.empty() ? power_W.size() : meter.rows.front();
+    meter.rows.clear();
+    for (std::size_t row = first; row < power_W.size(); row += meter.window) meter.rows.push_back(row);
   }
   if (meter.window < 5) {  // not held: every row is a reading of its own
     meter.window = 1;
@@ -132,6 +137,11 @@ MeteredPower metered_rows(std::span<const double> power_W) {
   }
   std::erase_if(meter.rows, [&meter](std::size_t row) { return row + 1 < meter.window; });
   return meter;
+}
+
+MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis) {
+  const double window = std::round(axis.power_meter_window_s / recording.sample_s);
+  return metered_rows(recording.at(channel::power_W), static_cast<std::size_t>(window));
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

@@ -24,12 +24,14 @@ class ClosedLoopRun {
   [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
   /// For the kernels; valid as long as this object stays where it is.
   [[nodiscard]] lanes::RecordView view() const noexcept;
+  [[nodiscard]] const plant::AxisParameters& nominal() const noexcept { return nominal_; }
   [[nodiscard]] bool has_controller() const noexcept { return !reference_.empty(); }
 
  private:
   const Recording* recording_;
   std::vector<controllers::Reference> reference_;
   lanes::RecordView view_;
+  plant::AxisParameters nominal_;
 };
 
 /// Channels as simulated, each as long as the run; `torque_Nm` is what the controller asks for.
@@ -47,6 +49,7 @@ struct CandidateAxis {
   plant::AxisParameters parameters;
   double position_offset_m = 0.0;  ///< simulated less shown position; an encoder that rounds down has half a count
   double force_offset_N = 0.0;     ///< constant, against positive motion
+  double start_offset_m = 0.0;     ///< where this run starts, less where its first row says: anywhere within a count
 };
 [[nodiscard]] std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run,
                                                           std::span<const CandidateAxis> candidates,
@@ -58,7 +61,10 @@ struct MeteredPower {
   std::vector<std::size_t> rows;
   std::size_t window = 1;
 };
-[[nodiscard]] MeteredPower metered_rows(std::span<const double> power_W);
+/// @param expected_window ticks, for a meter that shows too few different readings to tell its own; 0: unknown
+[[nodiscard]] MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_window = 0);
+/// With the window that the axis file states.
+[[nodiscard]] MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis);
 
 /// A simulated power as the recording's meter would show it, row by row.
 [[nodiscard]] std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter);

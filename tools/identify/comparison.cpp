@@ -26,7 +26,7 @@ void compare_closed_loop(const Case& recordings, const plant::AxisParameters& pa
   plant::FeedAxis axis(without_stops(parameters));
   into.simulated = simulate_closed_loop(run, axis);
   if (recording.has(channel::power_W)) {
-    const auto meter = metered_rows(recording.at(channel::power_W));
+    const auto meter = metered_rows(recording, parameters);
     into.simulated.power_W = as_metered(into.simulated.power_W, meter);
   }
   const auto only_if = [&recording](std::string_view name, const std::vector<double>& values) {

@@ -3,18 +3,72 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "plant/parameter_table.h"
 #include "tools/identify/axis_unknowns.h"
+#include "tools/identify/stages/stage_report.h"
 
 namespace feedtwin::tools {
 namespace {
 
 bool nuisance(const FittedParameter& fitted) {
   return fitted.parameter.key.starts_with("nuisance.");
+}
+
+template <class Work>
+double seconds_of(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Two columns: where either set of unknowns starts.
+Eigen::MatrixXd starts_of(const std::vector<FitParameter>& first, const std::vector<FitParameter>& second) {
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(first.size()), 2);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    points(row, 0) = first[i].start.value_or(first[i].nominal);
+    points(row, 1) = second[i].start.value_or(second[i].nominal);
+  }
+  return points;
+}
+
+/// A population about the start: between a third and three times each number (or within its bounds), on simulated cost.
+void evolve_start(const std::vector<ClosedLoopRun>& runs, const BatchSimulator& simulate,
+                  const IdentificationSettings& settings, std::vector<FitParameter>& unknowns, Identification& found) {
+  const auto n = static_cast<Eigen::Index>(unknowns.size());
+  Eigen::VectorXd lowest(n), highest(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& p = unknowns[static_cast<std::size_t>(i)];
+    const double start = p.start.value_or(p.nominal);
+    const double reach = start != 0.0 ? std::abs(start) : p.scale;
+    lowest[i] = std::max(p.lowest, start > 0.0 ? start / 3.0 : start - 2.0 * reach);
+    highest[i] = std::min(p.highest, start + 2.0 * reach);
+  }
+  const auto cost = output_error_cost(runs, unknowns, simulate, settings.output_error);
+  const auto evolved = evolve(lowest, highest, cost, settings.population, starts_of(unknowns, unknowns).col(0));
+  found.population_evaluations = evolved.evaluations;
+  for (Eigen::Index i = 0; i < n; ++i) unknowns[static_cast<std::size_t>(i)].start = evolved.point[i];
+  if (settings.output_error.progress) {
+    settings.output_error.progress(
+        fmt::format("population: {} generations, {} candidates simulated", evolved.generations, evolved.evaluations));
+  }
+}
+
+/// What trades with an encoder's rounding is of no use to anybody.
+void drop_nuisances(std::vector<Trade>& trades) {
+  for (auto& trade : trades) {
+    for (std::size_t i = trade.keys.size(); i-- > 0;) {
+      if (!trade.keys[i].starts_with("nuisance.")) continue;
+      trade.keys.erase(trade.keys.begin() + static_cast<std::ptrdiff_t>(i));
+      trade.weights.erase(trade.weights.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  std::erase_if(trades, [](const Trade& trade) { return trade.keys.empty(); });
 }
 
 nlohmann::json to_json(const RigidFit& fit) {
@@ -28,14 +82,38 @@ nlohmann::json to_json(const RigidFit& fit) {
 
 }  // namespace
 
+std::span<const MethodName> method_names() noexcept {
+  static constexpr std::array names{
+      MethodName{"staged", "stage by stage in closed form, then all together", Method::staged},
+      MethodName{"ga", "the stages by the source's genetic algorithm, then all together", Method::genetic},
+      MethodName{"population", "a genetic algorithm over everything on closed-loop simulation, then all together",
+                 Method::population},
+      MethodName{"joint", "all together at once, from the axis file", Method::joint},
+  };
+  return names;
+}
+
 Identification identify_case(const Case& recordings, const IdentificationSettings& settings) {
   Identification found;
+  found.method = settings.method;
   std::vector<ClosedLoopRun> runs;
   for (const auto& recording : recordings.fit) runs.emplace_back(recording, recordings.axis, recordings.controller);
-  const auto unknowns = axis_unknowns(recordings.axis, recordings.fit, settings.force_offset);
-  const auto begin = std::chrono::steady_clock::now();
-  found.fit = fit_output_error(runs, unknowns, lane_simulator(recordings.axis, unknowns), settings.output_error);
-  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  auto unknowns = axis_unknowns(recordings.axis, recordings.fit, settings.force_offset);
+  const auto simulate = lane_simulator(recordings.axis, unknowns);
+  const auto search = settings.method == Method::genetic ? StageSearch::genetic : StageSearch::projected;
+  found.stage_seconds = seconds_of([&] { found.stages = identify_by_stages(recordings.axis, recordings.fit, search); });
+  if (settings.method != Method::joint) {
+    auto staged = unknowns;
+    start_from(staged, found.stages.axis);
+    const Eigen::VectorXd costs =
+        output_error_cost(runs, unknowns, simulate, settings.output_error)(starts_of(unknowns, staged));
+    found.started_from_stages = costs[1] < costs[0];  // missing physics can lead a stage astray
+    if (found.started_from_stages) unknowns = std::move(staged);
+  }
+  if (settings.method == Method::population) {
+    found.population_seconds = seconds_of([&] { evolve_start(runs, simulate, settings, unknowns, found); });
+  }
+  found.seconds = seconds_of([&] { found.fit = fit_output_error(runs, unknowns, simulate, settings.output_error); });
   found.axis = axis_at(recordings.axis, unknowns, found.fit.point()).parameters;
   for (auto& fitted :
        found.fit.parameters) {  // as it stands in the axis: breakaway never below Coulomb, ends within the range
@@ -44,6 +122,7 @@ Identification identify_case(const Case& recordings, const IdentificationSetting
     fitted.value = entry->in(found.axis);
     for (double& end : fitted.ci90) end = std::clamp(end, entry->lowest, entry->highest);
   }
+  drop_nuisances(found.fit.trades);
   found.before = compare_case(recordings, recordings.axis);
   found.after = compare_case(recordings, found.axis);
   const auto motion = recorded_motion(recordings.fit.front(), recordings.axis.axis.lead_m, {.held_command = false});
@@ -71,7 +150,12 @@ nlohmann::json to_json(const Identification& found) {
   out["before"] = to_json(found.before)["closed_loop"];
   out["rigid_inverse_model"] = {{"symmetric", to_json(found.rigid)}, {"directional", to_json(found.rigid_directional)}};
   out["converged"] = found.fit.converged;
-  out["fit_seconds"] = found.seconds;
+  out["method"] = std::ranges::find(method_names(), found.method, &MethodName::method)->name;
+  out["stages"] = to_json(found.stages);
+  out["started_from"] = found.started_from_stages ? "stages" : "axis file";
+  if (found.population_evaluations > 0) out["population_evaluations"] = found.population_evaluations;
+  out["seconds"] = {
+      {"stages", found.stage_seconds}, {"population", found.population_seconds}, {"output_error", found.seconds}};
   out["simulated_runs"] = found.fit.simulations;
   return out;
 }
@@ -104,6 +188,9 @@ std::string to_text(const Identification& found) {
   out += fmt::format("               with viscous friction by direction: Fv {:.2f} / {:.2f} N s/m, error {:.3f} %\n",
                      found.rigid_directional.viscous_pos_Ns_per_m, found.rigid_directional.viscous_neg_Ns_per_m,
                      100.0 * found.rigid_directional.relative_error);
+  for (const auto& note : found.stages.notes) out += fmt::format("stage {}\n", note);
+  out += fmt::format("stages: {} numbers in {:.1f} ms; output error started from {}\n", found.stages.keys.size(),
+                     1e3 * found.stage_seconds, found.started_from_stages ? "them" : "the axis file");
   out += fmt::format("output error: {} residuals, {} runs simulated in {:.2f} s{}\n", found.fit.residuals,
                      found.fit.simulations, found.seconds, found.fit.converged ? "" : "; NOT converged");
   return out;

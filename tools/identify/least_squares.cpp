@@ -34,31 +34,32 @@ void linearise(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
   for (Index i = 0; i < n; ++i) at.jacobian.col(i) = (residuals.col(i + 1) - residuals.col(0)) / step[i];
 }
 
-/// The damped step, with unknowns that push against a bound held there.
+/// The damped step within the bounds: an unknown that it would take beyond one goes as far as that, and the others make the
+/// best of it.
 VectorXd damped_point(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, const MatrixXd& normal,
                       const VectorXd& gradient, double damping) {
+  constexpr int most_passes = 6;
   const Index n = at.point.size();
   std::vector<bool> held(static_cast<std::size_t>(n), false);
-  VectorXd point = at.point;
-  for (int pass = 0; pass < 3; ++pass) {
+  VectorXd bounded = VectorXd::Zero(n), point = at.point;  // how far the held ones go
+  for (int pass = 0; pass < most_passes; ++pass) {
     MatrixXd a = normal;
-    VectorXd b = -gradient;
+    a.diagonal() += damping * normal.diagonal().cwiseMax(1e-12);
+    VectorXd b = -gradient - a * bounded;
     for (Index i = 0; i < n; ++i) {
-      a(i, i) += damping * std::max(normal(i, i), 1e-12);
       if (!held[static_cast<std::size_t>(i)]) continue;
       a.row(i).setZero();
       a.col(i).setZero();
       a(i, i) = 1.0;
-      b[i] = 0.0;
+      b[i] = bounded[i];
     }
-    const VectorXd step = a.ldlt().solve(b);
-    point = (at.point + step).cwiseMax(problem.lowest).cwiseMin(problem.highest);
+    const VectorXd wanted = at.point + a.ldlt().solve(b);
+    point = wanted.cwiseMax(problem.lowest).cwiseMin(problem.highest);
     bool again = false;
     for (Index i = 0; i < n; ++i) {
-      const bool outside =
-          point[i] != at.point[i] + step[i] && (at.point[i] == problem.lowest[i] || at.point[i] == problem.highest[i]);
-      again = again || (outside && !held[static_cast<std::size_t>(i)]);
-      if (outside) held[static_cast<std::size_t>(i)] = true;
+      if (point[i] == wanted[i] || held[static_cast<std::size_t>(i)]) continue;
+      held[static_cast<std::size_t>(i)] = again = true;
+      bounded[i] = point[i] - at.point[i];
     }
     if (!again) break;
   }
@@ -69,6 +70,7 @@ VectorXd damped_point(const LeastSquaresProblem& problem, const LeastSquaresSolu
 
 LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
   // the factors on the damping that one batch tries at once
+  constexpr double strongest_damping = 1e6;  // a step of a millionth of Newton's: there is no way down
   constexpr std::array trials{0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4};
   LeastSquaresSolution at;
   at.point = problem.start.cwiseMax(problem.lowest).cwiseMin(problem.highest);
@@ -78,21 +80,27 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
     const MatrixXd normal = at.jacobian.transpose() * at.jacobian;
     const VectorXd gradient = at.jacobian.transpose() * at.residuals;
     MatrixXd points(at.point.size(), static_cast<Index>(trials.size()));
-    for (Index i = 0; i < points.cols(); ++i) {
-      points.col(i) = damped_point(problem, at, normal, gradient, damping * trials[static_cast<std::size_t>(i)]);
-    }
-    const MatrixXd residuals = problem.residuals(points);
     Index best = 0;
-    for (Index i = 1; i < points.cols(); ++i) {
-      if (cost_of(residuals.col(i)) < cost_of(residuals.col(best))) best = i;
+    double fall = 0.0;
+    for (;;) {
+      for (Index i = 0; i < points.cols(); ++i) {
+        points.col(i) = damped_point(problem, at, normal, gradient, damping * trials[static_cast<std::size_t>(i)]);
+      }
+      const MatrixXd residuals = problem.residuals(points);
+      best = 0;
+      for (Index i = 1; i < points.cols(); ++i) {
+        if (cost_of(residuals.col(i)) < cost_of(residuals.col(best))) best = i;
+      }
+      fall = at.cost - cost_of(residuals.col(best));
+      if (fall > 0.0 || damping * trials.back() >= strongest_damping) break;
+      damping = std::max(damping, 1e-4) * trials.back();  // no step that bold goes down: shorter ones
     }
-    const double fall = at.cost - cost_of(residuals.col(best));
     if (!(fall > problem.cost_tolerance * at.cost)) {
       at.converged = true;
       if (fall <= 0.0) return at;
     }
     at.point = points.col(best);
-    damping = std::clamp(damping * std::max(trials[static_cast<std::size_t>(best)], 1e-3), 1e-9, 1e6);
+    damping = std::clamp(damping * std::max(trials[static_cast<std::size_t>(best)], 1e-3), 1e-3, 1e6);
     if (at.converged) break;
   }
   linearise(problem, at);

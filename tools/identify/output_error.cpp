@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/least_squares.h"
@@ -30,33 +31,23 @@ class ResidualStack {
       : runs_(runs), parameters_(parameters), simulate_(simulate), settings_(settings) {
     double squares = 0.0, readings = 0.0;
     for (const auto& run : runs) {
-      const auto power = run.recording().at(channel::power_W);
-      meters_.push_back(power.empty() ? MeteredPower{} : metered_rows(power));
-      for (const double value : power) squares += value * value, readings += 1.0;
+      const bool metered = run.recording().has(channel::power_W);
+      reading_weights_.push_back(reading_weights(run.recording().at(channel::position_m)));
+      meters_.push_back(metered ? metered_rows(run.recording(), run.nominal()) : MeteredPower{});
+      for (const double value : run.recording().at(channel::power_W)) squares += value * value, readings += 1.0;
     }
     if (squares > 0.0) power_rms_W_ = std::sqrt(squares / readings);
   }
 
+  /// A column for each point; simulated by whoever shares the work.
   MatrixXd operator()(const MatrixXd& points) {
-    MatrixXd all;
-    Index row = 0;
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const auto simulated = simulate_(runs_[r], points);
-      simulations_ += static_cast<int>(simulated.size());
-      for (Index p = 0; p < points.cols(); ++p) {
-        auto channels = channel_residuals(runs_[r].recording(), meters_[r], simulated[static_cast<std::size_t>(p)]);
-        if (all.size() == 0) all.resize(total_rows(channels), points.cols());
-        Index at = row;
-        for (std::size_t c = 0; c < channels.size(); ++c) {
-          if (fitted_channels[c] == channel::power_W) even_out(r, channels[c]);
-          whitening_[c].apply(channels[c]);
-          std::copy(channels[c].begin(), channels[c].end(), all.col(p).data() + at);
-          at += static_cast<Index>(channels[c].size());
-        }
-        if (p + 1 == points.cols()) row = at;
-      }
-    }
-    for (Index p = 0; p < points.cols(); ++p) all.col(p).tail(prior_rows()) = prior(points.col(p));
+    MatrixXd all(total_rows(), points.cols());
+    const auto group = static_cast<Index>(lanes::best_kernel().width);
+    const auto [first, last] =
+        settings_.ranks != nullptr ? settings_.ranks->own(points.cols(), group) : std::pair<Index, Index>(0, points.cols());
+    if (last > first) all.middleCols(first, last - first) = own(points.middleCols(first, last - first));
+    if (settings_.ranks != nullptr) settings_.ranks->share(all, group);
+    simulations_ += static_cast<int>(runs_.size()) * static_cast<int>(points.cols());
     return all;
   }
 
@@ -64,8 +55,9 @@ class ResidualStack {
   void weigh(const VectorXd& point, bool coloured) {
     std::array<std::vector<std::vector<double>>, fitted_channels.size()> stretches;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const auto simulated = simulate_(runs_[r], point);
-      auto channels = channel_residuals(runs_[r].recording(), meters_[r], simulated.front());
+      auto simulated = simulate_(runs_[r], point);
+      auto channels = residuals_of(r, simulated.front());
+      for (std::size_t c = 0; c < channels.size() && r == 0; ++c) given_[c] = !channels[c].empty();
       for (std::size_t c = 0; c < channels.size(); ++c) {
         if (!channels[c].empty()) stretches[c].push_back(std::move(channels[c]));
       }
@@ -82,6 +74,52 @@ class ResidualStack {
   [[nodiscard]] const std::vector<Index>& starts() const { return starts_; }
 
  private:
+  /// The command's residual comes from the encoder's: rows that show the same count are one reading, however many they are.
+  static std::vector<double> reading_weights(std::span<const double> position_m) {
+    std::vector<double> weights(position_m.size(), 1.0);
+    for (std::size_t first = 0; first < weights.size();) {
+      std::size_t end = first + 1;
+      while (end < weights.size() && position_m[end] == position_m[first]) ++end;
+      std::fill(weights.begin() + static_cast<std::ptrdiff_t>(first), weights.begin() + static_cast<std::ptrdiff_t>(end),
+                1.0 / std::sqrt(static_cast<double>(end - first)));
+      first = end;
+    }
+    return weights;
+  }
+
+  std::array<std::vector<double>, fitted_channels.size()> residuals_of(std::size_t r, Simulated& simulated) const {
+    // effects may come between command and power: of the lanes alone, the paper's model, it is known that none does
+    const bool of_lanes = simulated.instant_power_W.empty();
+    if (of_lanes && !simulated.power_W.empty()) simulated.power_W = with_recorded_work(runs_[r], simulated);
+    return channel_residuals(runs_[r].recording(), meters_[r], simulated);
+  }
+
+  MatrixXd own(const MatrixXd& points) {
+    MatrixXd all(total_rows(), points.cols());
+    Index row = 0;
+    for (const auto& run : runs_) {
+      const auto r = static_cast<std::size_t>(&run - runs_.data());
+      auto simulated = simulate_(run, points);
+      Index at = row;
+      for (Index p = 0; p < points.cols(); ++p) {
+        at = row;
+        auto channels = residuals_of(r, simulated[static_cast<std::size_t>(p)]);
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+          if (fitted_channels[c] == channel::power_W) even_out(r, channels[c]);
+          whitening_[c].apply(channels[c]);
+          if (fitted_channels[c] == channel::torque_cmd_Nm) {
+            for (std::size_t i = 0; i < channels[c].size(); ++i) channels[c][i] *= reading_weights_[r][i];
+          }
+          std::copy(channels[c].begin(), channels[c].end(), all.col(p).data() + at);
+          at += static_cast<Index>(channels[c].size());
+        }
+      }
+      row = at;
+    }
+    for (Index p = 0; p < points.cols(); ++p) all.col(p).tail(prior_rows()) = prior(points.col(p));
+    return all;
+  }
+
   /// A channel cannot be trusted beyond a ten-thousandth of its own size.
   double smallest_sigma(std::size_t c) const {
     if (fitted_channels[c] == channel::scale_position_m) return 1e-9;  // what it is fitted to is not its own size
@@ -129,14 +167,14 @@ class ResidualStack {
       for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] /= 1.0 + growth_ * reading(run, i);
   }
 
-  /// All runs give the channels that the first one gives.
-  Index total_rows(const std::array<std::vector<double>, fitted_channels.size()>& first) {
+  /// All runs give the channels that the first one gave when it was weighed.
+  Index total_rows() {
     Index rows = 0;
     starts_.clear();
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       for (std::size_t c = 0; c < fitted_channels.size(); ++c) {
+        if (!given_[c]) continue;
         const auto name = fitted_channels[c];
-        if (first[c].empty()) continue;
         starts_.push_back(rows);
         const std::size_t recorded = runs_[r].recording().at(name).size();
         rows += static_cast<Index>(name == channel::power_W ? meters_[r].rows.size() : recorded);
@@ -158,8 +196,10 @@ class ResidualStack {
   const std::vector<ClosedLoopRun>& runs_;
   const std::vector<FitParameter>& parameters_;
   const BatchSimulator& simulate_;
-  const OutputErrorSettings& settings_;
+  OutputErrorSettings settings_;
   std::vector<MeteredPower> meters_;
+  std::vector<std::vector<double>> reading_weights_;  ///< by run and row
+  std::array<bool, fitted_channels.size()> given_{};
   double power_rms_W_ = 1.0, growth_ = 0.0;
   std::array<Whitening, fitted_channels.size()> whitening_;
   std::vector<Index> starts_;
@@ -290,6 +330,31 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
     fit.parameters.push_back({parameters[i], value, deviation, {value - half, value + half}, told});
   }
   return fit;
+}
+
+BatchCost output_error_cost(const std::vector<ClosedLoopRun>& runs, const std::vector<FitParameter>& parameters,
+                            const BatchSimulator& simulate, const OutputErrorSettings& settings) {
+  OutputErrorSettings alone = settings;  // columns are shared here, a cost each
+  alone.ranks = nullptr;
+  auto stack = std::make_shared<ResidualStack>(runs, parameters, simulate, alone);
+  VectorXd start(static_cast<Index>(parameters.size()));
+  for (Index i = 0; i < start.size(); ++i) {
+    const auto& p = parameters[static_cast<std::size_t>(i)];
+    start[i] = p.start.value_or(p.nominal);
+  }
+  stack->weigh(start, false);
+  return [stack, ranks = settings.ranks](const MatrixXd& points) {
+    const auto group = static_cast<Index>(lanes::best_kernel().width);
+    const auto [first, last] =
+        ranks != nullptr ? ranks->own(points.cols(), group) : std::pair<Index, Index>(0, points.cols());
+    MatrixXd costs = MatrixXd::Zero(1, points.cols());
+    for (Index at = first; at < last; at += 4 * group) {  // residuals of a few groups at a time are enough memory
+      const Index count = std::min(4 * group, last - at);
+      costs.middleCols(at, count) = 0.5 * (*stack)(points.middleCols(at, count)).colwise().squaredNorm();
+    }
+    if (ranks != nullptr) ranks->share(costs, group);
+    return VectorXd(costs.row(0).transpose());
+  };
 }
 
 }  // namespace feedtwin::tools

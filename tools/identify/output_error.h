@@ -9,17 +9,19 @@
 #include <vector>
 
 #include "tools/identify/closed_loop.h"
+#include "tools/identify/population/genetic.h"
+#include "tools/identify/population/ranks.h"
 
 namespace feedtwin::tools {
 
 /// One unknown.
 struct FitParameter {
   std::string key;       ///< of plant/parameter_table, or of an effect
-  double nominal = 0.0;  ///< the middle of the prior
+  double nominal = 0.0;  ///< middle of the prior, and the start where none is given
   double lowest = 0.0, highest = 0.0;
-  double scale = 1.0;             ///< > 0: differences are taken in 1e-4 of it, and the prior's deviation is `prior` of it
-  double prior = 1.0;             ///< times the settings' prior
-  std::optional<double> start{};  ///< of the search; by default where the prior has its middle
+  double scale = 1.0;  ///< > 0: differences are taken in 1e-4 of it, and the prior's deviation is `prior` of it
+  double prior = 1.0;  ///< times the settings' prior
+  std::optional<double> start{};
 };
 
 /// Simulates one run for several sets of unknowns (a column each). Every channel that the recording has, but the scale.
@@ -33,6 +35,7 @@ struct OutputErrorSettings {
   std::size_t whitening_order = 24;
   int rounds = 3;  ///< of fitting and weighing anew
   int most_iterations = 25;
+  const Ranks* ranks = nullptr;                           ///< who shares the simulations; nullptr: nobody
   std::function<void(const std::string& line)> progress;  ///< told of every round; may be empty
 };
 
@@ -65,5 +68,11 @@ struct OutputErrorFit {
 [[nodiscard]] OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs,
                                               const std::vector<FitParameter>& parameters, const BatchSimulator& simulate,
                                               const OutputErrorSettings& settings = {});
+
+/// Half the sum of squares for each point, with channels weighed by what is left at the parameters' start: for a population,
+/// or to choose between starts. What it refers to must outlive it.
+[[nodiscard]] BatchCost output_error_cost(const std::vector<ClosedLoopRun>& runs,
+                                          const std::vector<FitParameter>& parameters, const BatchSimulator& simulate,
+                                          const OutputErrorSettings& settings = {});
 
 }  // namespace feedtwin::tools

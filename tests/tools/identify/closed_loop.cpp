@@ -40,7 +40,8 @@ TEST(ClosedLoop, EveryKernelAgreesWithTheServersAxis) {
           const auto& m = axes[first + i].motor;
           candidates.push_back({plant::make_axis_model(axes[first + i]), m.electrical_idle_W,
                                 m.electrical_linear_Ws_per_m.pos, m.electrical_linear_Ws_per_m.neg,
-                                m.electrical_quadratic_Ws2_per_m2.pos, m.electrical_quadratic_Ws2_per_m2.neg, 2e-8, 0.0});
+                                m.electrical_quadratic_Ws2_per_m2.pos, m.electrical_quadratic_Ws2_per_m2.neg, 2e-8, 0.0,
+                                0.0});
         }
         const std::size_t n = recording.size();
         std::vector<double> torque(n * kernel.width), position(torque), sensor(torque), force(torque), power(torque);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <thread>
 
 namespace feedtwin::tools::lanes {
@@ -50,7 +51,13 @@ class Group {
   std::vector<double> torque_, position_, torque_sensor_, force_sensor_, power_;
 };
 
+std::atomic<std::size_t> widest_allowed{std::numeric_limits<std::size_t>::max()};
+
 }  // namespace
+
+void use_no_wider_than(std::size_t width) noexcept {
+  widest_allowed = width;
+}
 
 std::vector<KernelEntry> usable_kernels() {
   std::vector<KernelEntry> usable{baseline_kernel()};
@@ -65,7 +72,10 @@ std::vector<KernelEntry> usable_kernels() {
 }
 
 KernelEntry best_kernel() {
-  return usable_kernels().back();
+  const auto kernels = usable_kernels();
+  const auto fits = std::ranges::find_if(kernels.rbegin(), kernels.rend(),
+                                         [](const KernelEntry& kernel) { return kernel.width <= widest_allowed.load(); });
+  return fits == kernels.rend() ? kernels.front() : *fits;
 }
 
 std::vector<CandidateResult> simulate_candidates(const RecordView& record, std::span<const Candidate> candidates,

@@ -10,8 +10,10 @@ namespace feedtwin::tools::lanes {
 
 /// Every kernel that this processor can run, slowest first.
 [[nodiscard]] std::vector<KernelEntry> usable_kernels();
-/// The widest one.
+/// The widest one, or the one that use_no_wider_than() left.
 [[nodiscard]] KernelEntry best_kernel();
+/// For processes that must agree to the last bit: the widest kernel that all of them have. Set-up only.
+void use_no_wider_than(std::size_t width) noexcept;
 
 /// Which results a simulation is asked for.
 struct Wanted {

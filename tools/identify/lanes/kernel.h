@@ -30,6 +30,7 @@ struct Candidate {
   double idle_W, linear_pos_Ws_per_m, linear_neg_Ws_per_m, quadratic_pos_Ws2_per_m2, quadratic_neg_Ws2_per_m2;  ///< Eq. 7
   double position_offset_m;  ///< simulated less shown position
   double force_offset_N;     ///< constant, against positive motion
+  double start_offset_m;     ///< where the run starts, less where the first row says
 };
 
 /// Where results go: sample i of lane j at [i * stride + j]; nullptr: not wanted.

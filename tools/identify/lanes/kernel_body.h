@@ -27,7 +27,7 @@ struct LaneAxes {
       quadratic_neg[i] = c.quadratic_neg_Ws2_per_m2;
       position_offset_m[i] = c.position_offset_m;
       force_offset_N[i] = c.force_offset_N;
-      state.position_m[i] = record.position_m[0];
+      state.position_m[i] = record.position_m[0] + c.start_offset_m;
       state.velocity_m_per_s[i] = record.start_velocity_m_per_s;
     }
   }

@@ -1,0 +1,115 @@
+#include "tools/identify/least_squares.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace feedtwin::tools {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+LeastSquaresProblem within(Index unknowns, double low, double high) {
+  LeastSquaresProblem problem;
+  problem.start = VectorXd::Zero(unknowns);
+  problem.lowest = VectorXd::Constant(unknowns, low);
+  problem.highest = VectorXd::Constant(unknowns, high);
+  problem.step = VectorXd::Constant(unknowns, 1e-6);
+  return problem;
+}
+
+MatrixXd random_matrix(std::mt19937_64& random, Index rows, Index columns) {
+  std::normal_distribution<double> unit;
+  MatrixXd m(rows, columns);
+  for (double& value : m.reshaped()) value = unit(random);
+  return m;
+}
+
+TEST(LeastSquares, SolvesLinearProblemsAsQrDoes) {
+  std::mt19937_64 random(71);
+  for (int round = 0; round < 30; ++round) {
+    const MatrixXd a = random_matrix(random, 40, 6);
+    const VectorXd b = random_matrix(random, 40, 1);
+    auto problem = within(6, -100.0, 100.0);
+    problem.residuals = [&](const MatrixXd& points) { return MatrixXd((a * points).colwise() - b); };
+    const auto found = solve_least_squares(problem);
+    const VectorXd right = a.colPivHouseholderQr().solve(b);
+    EXPECT_TRUE(found.converged) << round;
+    EXPECT_LT((found.point - right).norm(), 1e-5 * (1.0 + right.norm())) << round;
+    EXPECT_LT((found.jacobian - a).norm(), 1e-6 * a.norm()) << round;
+  }
+}
+
+TEST(LeastSquares, FollowsACurvedValley) {
+  auto problem = within(2, -10.0, 10.0);
+  problem.start << -1.2, 1.0;
+  problem.most_iterations = 200;
+  problem.cost_tolerance = 1e-14;
+  problem.residuals = [](const MatrixXd& points) {
+    MatrixXd r(2, points.cols());
+    r.row(0) = 10.0 * (points.row(1).array() - points.row(0).array().square());
+    r.row(1) = 1.0 - points.row(0).array();
+    return r;
+  };
+  const auto found = solve_least_squares(problem);
+  EXPECT_NEAR(found.point[0], 1.0, 1e-4);
+  EXPECT_NEAR(found.point[1], 1.0, 1e-4);
+}
+
+// The optimum of a bounded linear problem obeys Karush, Kuhn and Tucker: no gradient inside, one that pushes outwards on a
+// bound.
+TEST(LeastSquares, StopsAtBoundsThatHold) {
+  std::mt19937_64 random(72);
+  for (int round = 0; round < 50; ++round) {
+    const MatrixXd a = random_matrix(random, 30, 5);
+    const VectorXd b = 3.0 * random_matrix(random, 30, 1);
+    auto problem = within(5, -0.2, 0.3);
+    problem.most_iterations = 200;
+    problem.cost_tolerance = 1e-13;
+    problem.residuals = [&](const MatrixXd& points) {
+      EXPECT_TRUE((points.array() >= -0.2 - 1e-12).all() && (points.array() <= 0.3 + 1e-12).all());
+      return MatrixXd((a * points).colwise() - b);
+    };
+    const auto found = solve_least_squares(problem);
+    const VectorXd gradient = a.transpose() * (a * found.point - b);
+    for (Index i = 0; i < 5; ++i) {
+      if (found.point[i] <= -0.2 + 1e-9) {
+        EXPECT_GT(gradient[i], -1e-2) << round;
+      } else if (found.point[i] >= 0.3 - 1e-9) {
+        EXPECT_LT(gradient[i], 1e-2) << round;
+      } else {
+        EXPECT_NEAR(gradient[i], 0.0, 1e-2) << round;
+      }
+    }
+  }
+}
+
+TEST(LeastSquares, AvoidsPointsWithoutAValue) {
+  auto problem = within(1, -10.0, 10.0);
+  problem.start << 4.0;
+  problem.residuals = [](const MatrixXd& points) {
+    MatrixXd r = points.array() - 1.0;
+    for (double& value : r.reshaped()) {
+      if (value < -0.5) value = std::numeric_limits<double>::quiet_NaN();
+    }
+    return r;
+  };
+  EXPECT_NEAR(solve_least_squares(problem).point[0], 1.0, 1e-4);
+}
+
+TEST(LeastSquares, SaysWhenItRanOutOfIterations) {
+  auto problem = within(1, -1e9, 1e9);
+  problem.start << 1e6;
+  problem.most_iterations = 2;
+  problem.residuals = [](const MatrixXd& points) { return MatrixXd(points.array().exp().min(1e100) + 1.0); };
+  problem.start << 20.0;
+  EXPECT_FALSE(solve_least_squares(problem).converged);
+}
+
+}  // namespace
+}  // namespace feedtwin::tools
