@@ -35,17 +35,18 @@ void linearise(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
 }
 
 /// The damped step within the bounds: an unknown that it would take beyond one goes as far as that, and the others make the
-/// best of it.
+/// best of it; one that then would rather come back is let go again (Lawson, Hanson: bounded least squares).
 VectorXd damped_point(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, const MatrixXd& normal,
                       const VectorXd& gradient, double damping) {
-  constexpr int most_passes = 6;
+  constexpr int most_passes = 12;
   const Index n = at.point.size();
+  MatrixXd damped = normal;
+  damped.diagonal() += damping * normal.diagonal().cwiseMax(1e-12);
   std::vector<bool> held(static_cast<std::size_t>(n), false);
   VectorXd bounded = VectorXd::Zero(n), point = at.point;  // how far the held ones go
   for (int pass = 0; pass < most_passes; ++pass) {
-    MatrixXd a = normal;
-    a.diagonal() += damping * normal.diagonal().cwiseMax(1e-12);
-    VectorXd b = -gradient - a * bounded;
+    MatrixXd a = damped;
+    VectorXd b = -gradient - damped * bounded;
     for (Index i = 0; i < n; ++i) {
       if (!held[static_cast<std::size_t>(i)]) continue;
       a.row(i).setZero();
@@ -60,6 +61,15 @@ VectorXd damped_point(const LeastSquaresProblem& problem, const LeastSquaresSolu
       if (point[i] == wanted[i] || held[static_cast<std::size_t>(i)]) continue;
       held[static_cast<std::size_t>(i)] = again = true;
       bounded[i] = point[i] - at.point[i];
+    }
+    if (again) continue;
+    const VectorXd slope = damped * (point - at.point) + gradient;
+    for (Index i = 0; i < n && !again; ++i) {
+      const bool inwards = point[i] == problem.highest[i] ? slope[i] > 0.0 : slope[i] < 0.0;
+      if (!held[static_cast<std::size_t>(i)] || !inwards) continue;
+      held[static_cast<std::size_t>(i)] = false;
+      bounded[i] = 0.0;
+      again = true;
     }
     if (!again) break;
   }

@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 
 constexpr double normal_90 = 1.6448536269514722;               // half-width of a 90 % interval in deviations
 constexpr double difference_step = 1e-4, largest_step = 0.03;  // of a parameter's scale
+constexpr double step_deviations = 2.0;                        // of an unknown alone, over which differences are taken
 constexpr std::size_t block_samples = 200;
 
 /// Residuals of all runs and channels in one column, whitened, then the prior's.
@@ -232,10 +233,11 @@ MatrixXd covariance_of(const LeastSquaresSolution& at, const ResidualStack& stac
 
 /// Differences are taken over about what the data can tell apart: sticking and reversals make the residuals of a short step
 /// jump, and a derivative across such a jump would be called knowledge.
-void adapt_steps(const MatrixXd& covariance, const std::vector<FitParameter>& parameters, VectorXd& step) {
+void adapt_steps(const LeastSquaresSolution& at, const std::vector<FitParameter>& parameters, VectorXd& step) {
   for (Index i = 0; i < step.size(); ++i) {
     const auto& p = parameters[static_cast<std::size_t>(i)];
-    step[i] = std::clamp(std::sqrt(covariance(i, i)), difference_step * p.scale, largest_step * p.scale);
+    const double alone = 1.0 / std::max(at.jacobian.col(i).norm(), 1e-12);  // deviation with all others known
+    step[i] = std::clamp(step_deviations * alone, difference_step * p.scale, largest_step * p.scale);
   }
 }
 
@@ -311,7 +313,7 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
                                     at.iterations, std::sqrt(2.0 * at.cost / static_cast<double>(at.residuals.size()))));
     }
     problem.start = at.point;
-    adapt_steps(covariance_of(at, stack), parameters, problem.step);
+    adapt_steps(at, parameters, problem.step);
   }
   linearise_centrally(problem, at);
   OutputErrorFit fit;

@@ -76,6 +76,7 @@ TEST(LeastSquares, StopsAtBoundsThatHold) {
       return MatrixXd((a * points).colwise() - b);
     };
     const auto found = solve_least_squares(problem);
+    EXPECT_TRUE(found.converged) << round;
     const VectorXd gradient = a.transpose() * (a * found.point - b);
     for (Index i = 0; i < 5; ++i) {
       if (found.point[i] <= -0.2 + 1e-9) {
