@@ -13,7 +13,7 @@
 #include "tools/config/axis_file.h"
 #include "tools/config/input_error.h"
 #include "tools/identify/identification.h"
-#include "tools/identify/population/ranks.h"
+#include "tools/identify/population/shared_columns.h"
 #include "tools/identify/stages/stage_report.h"
 #include "tools/json_option.h"
 #include "tools/verb.h"
@@ -37,7 +37,7 @@ std::optional<Case> read_everywhere(const std::string& folder, const Ranks& rank
   } catch (const InputError& error) {
     problem = error.what();
   }
-  problem = ranks.first_problem(problem);
+  problem = first_problem(ranks, problem);
   if (problem.empty()) return recordings;
   if (ranks.first()) fmt::print(stderr, "feedtwin: {}\n", problem);
   return std::nullopt;
@@ -58,8 +58,8 @@ void write_results(const Options& options, const Case& recordings, const Identif
 }
 
 int run(const Options& options) {
-  const Ranks ranks;
-  lanes::use_no_wider_than(static_cast<std::size_t>(ranks.smallest(static_cast<int>(lanes::best_kernel().width))));
+  const Ranks& ranks = Ranks::world();
+  lanes::use_no_wider_than(smallest_of(ranks, lanes::best_kernel().width));
   const auto recordings = read_everywhere(options.folder, ranks);
   if (!recordings) return wrong_input;
   IdentificationSettings settings;

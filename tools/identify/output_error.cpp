@@ -44,10 +44,10 @@ class ResidualStack {
   MatrixXd operator()(const MatrixXd& points) {
     MatrixXd all(total_rows(), points.cols());
     const auto group = static_cast<Index>(lanes::best_kernel().width);
-    const auto [first, last] =
-        settings_.ranks != nullptr ? settings_.ranks->own(points.cols(), group) : std::pair<Index, Index>(0, points.cols());
+    const auto [first, last] = settings_.ranks != nullptr ? own_columns(*settings_.ranks, points.cols(), group)
+                                                          : std::pair<Index, Index>(0, points.cols());
     if (last > first) all.middleCols(first, last - first) = own(points.middleCols(first, last - first));
-    if (settings_.ranks != nullptr) settings_.ranks->share(all, group);
+    if (settings_.ranks != nullptr) share_columns(*settings_.ranks, all, group);
     simulations_ += static_cast<int>(runs_.size()) * static_cast<int>(points.cols());
     return all;
   }
@@ -348,13 +348,13 @@ BatchCost output_error_cost(const std::vector<ClosedLoopRun>& runs, const std::v
   return [stack, ranks = settings.ranks](const MatrixXd& points) {
     const auto group = static_cast<Index>(lanes::best_kernel().width);
     const auto [first, last] =
-        ranks != nullptr ? ranks->own(points.cols(), group) : std::pair<Index, Index>(0, points.cols());
+        ranks != nullptr ? own_columns(*ranks, points.cols(), group) : std::pair<Index, Index>(0, points.cols());
     MatrixXd costs = MatrixXd::Zero(1, points.cols());
     for (Index at = first; at < last; at += 4 * group) {  // residuals of a few groups at a time are enough memory
       const Index count = std::min(4 * group, last - at);
       costs.middleCols(at, count) = 0.5 * (*stack)(points.middleCols(at, count)).colwise().squaredNorm();
     }
-    if (ranks != nullptr) ranks->share(costs, group);
+    if (ranks != nullptr) share_columns(*ranks, costs, group);
     return VectorXd(costs.row(0).transpose());
   };
 }

@@ -10,7 +10,7 @@
 
 #include "tools/identify/closed_loop.h"
 #include "tools/identify/population/genetic.h"
-#include "tools/identify/population/ranks.h"
+#include "tools/identify/population/shared_columns.h"
 
 namespace feedtwin::tools {
 

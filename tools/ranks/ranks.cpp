@@ -1,8 +1,10 @@
 #include "tools/ranks/ranks.h"
 
+#ifdef FEEDTWIN_MPI
 #define OMPI_SKIP_MPICXX 1  // the C interface alone: C++ bindings would need a library of their own
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
+#endif
 
 #include <cstdlib>
 #include <numeric>
@@ -26,6 +28,8 @@ const Ranks& Ranks::world() {
   static const Ranks ranks;
   return ranks;
 }
+
+#ifdef FEEDTWIN_MPI
 
 Ranks::Ranks() {
   if (!launched()) return;
@@ -58,6 +62,20 @@ std::vector<std::vector<std::byte>> Ranks::gathered(std::span<const std::byte> m
   }
   return parts;
 }
+
+#else
+
+Ranks::Ranks() {
+  if (launched()) throw InputError("started by mpirun, but built without MPI (libopenmpi-dev)");
+}
+
+Ranks::~Ranks() = default;
+
+std::vector<std::vector<std::byte>> Ranks::gathered(std::span<const std::byte> mine) const {
+  return {std::vector<std::byte>(mine.begin(), mine.end())};
+}
+
+#endif
 
 std::vector<std::string> Ranks::gathered(const std::string& mine) const {
   std::vector<std::string> texts;
