@@ -113,7 +113,20 @@ Identification identify_case(const Case& recordings, const IdentificationSetting
   if (settings.method == Method::population) {
     found.population_seconds = seconds_of([&] { evolve_start(runs, simulate, settings, unknowns, found); });
   }
-  found.seconds = seconds_of([&] { found.fit = fit_output_error(runs, unknowns, simulate, settings.output_error); });
+  found.seconds = seconds_of([&] {
+    found.fit = fit_output_error(runs, unknowns, simulate, settings.output_error);
+    if (!found.started_from_stages || !found.stages.contacts.empty()) return;
+    // the command alone leaves valleys beside each other: the axis file's may be the deeper one
+    for (auto& unknown : unknowns) unknown.start.reset();
+    auto other = fit_output_error(runs, unknowns, simulate, settings.output_error);
+    Eigen::MatrixXd ends(other.point().size(), 2);
+    ends << found.fit.point(), other.point();
+    const Eigen::VectorXd costs = output_error_cost(runs, unknowns, simulate, settings.output_error)(ends);
+    if (costs[0] <= costs[1]) return;
+    other.simulations += found.fit.simulations;
+    found.fit = std::move(other);
+    found.started_from_stages = false;
+  });
   found.axis = axis_at(recordings.axis, unknowns, found.fit.point()).parameters;
   for (auto& fitted :
        found.fit.parameters) {  // as it stands in the axis: breakaway never below Coulomb, ends within the range

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/least_squares.h"
@@ -21,7 +22,8 @@ using Eigen::VectorXd;
 
 constexpr double normal_90 = 1.6448536269514722;               // half-width of a 90 % interval in deviations
 constexpr double difference_step = 1e-4, largest_step = 0.03;  // of a parameter's scale
-constexpr double step_deviations = 2.0;                        // of an unknown alone, over which differences are taken
+constexpr double few_roundings = 3.0;
+constexpr double step_deviations = 2.0;  // of an unknown alone, over which differences are taken
 constexpr std::size_t block_samples = 200;
 
 /// Residuals of all runs and channels in one column, whitened, then the prior's.
@@ -31,6 +33,7 @@ class ResidualStack {
                 const BatchSimulator& simulate, const OutputErrorSettings& settings)
       : runs_(runs), parameters_(parameters), simulate_(simulate), settings_(settings) {
     double squares = 0.0, readings = 0.0;
+    rounding_is_left_.assign(runs.size(), false);
     for (const auto& run : runs) {
       const bool metered = run.recording().has(channel::power_W);
       reading_weights_.push_back(reading_weights(run.recording().at(channel::position_m)));
@@ -59,6 +62,7 @@ class ResidualStack {
       auto simulated = simulate_(runs_[r], point);
       auto channels = residuals_of(r, simulated.front());
       for (std::size_t c = 0; c < channels.size() && r == 0; ++c) given_[c] = !channels[c].empty();
+      rounding_is_left_[r] = rms(channels[0]) < few_roundings * rounding_Nm(runs_[r]);
       for (std::size_t c = 0; c < channels.size(); ++c) {
         if (!channels[c].empty()) stretches[c].push_back(std::move(channels[c]));
       }
@@ -73,9 +77,31 @@ class ResidualStack {
   [[nodiscard]] int simulations() const { return simulations_; }
   /// Where one stretch of residuals ends and the next begins, for what is summed in blocks.
   [[nodiscard]] const std::vector<Index>& starts() const { return starts_; }
+  /// How many of them each run has; the command comes first.
+  [[nodiscard]] std::size_t channels() const { return static_cast<std::size_t>(std::ranges::count(given_, true)); }
 
  private:
-  /// The command's residual comes from the encoder's: rows that show the same count are one reading, however many they are.
+  static double rms(std::span<const double> values) {
+    double squares = 0.0;
+    for (const double value : values) squares += value * value;
+    return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(values.size(), 1)));
+  }
+
+  /// What the controller, or the stand-in, makes of an encoder's rounding: mostly its derivative's doing.
+  static double rounding_Nm(const ClosedLoopRun& run) {
+    const auto view = run.view();
+    const auto& axis = run.nominal().axis;
+    const auto& s = view.stand_in;
+    const double share = s.filter_rad_per_s * view.tick_s / (1.0 + s.filter_rad_per_s * view.tick_s);
+    const double damping = run.has_controller()
+                               ? view.gains.velocity_Ns_per_m
+                               : 2.0 * s.damping_ratio * view.stand_in_mass_kg * s.bandwidth_rad_per_s * share;
+    const double rounding_m = axis.lead_m / axis.encoder_counts_per_rev / std::sqrt(12.0);
+    return damping * std::numbers::sqrt2 * rounding_m / view.tick_s * axis.lead_m / (2.0 * std::numbers::pi);
+  }
+
+  /// Where nothing but rounding is left of the command's residual, rows that show the same count are one reading, however
+  /// many they are.
   static std::vector<double> reading_weights(std::span<const double> position_m) {
     std::vector<double> weights(position_m.size(), 1.0);
     for (std::size_t first = 0; first < weights.size();) {
@@ -108,7 +134,7 @@ class ResidualStack {
         for (std::size_t c = 0; c < channels.size(); ++c) {
           if (fitted_channels[c] == channel::power_W) even_out(r, channels[c]);
           whitening_[c].apply(channels[c]);
-          if (fitted_channels[c] == channel::torque_cmd_Nm) {
+          if (fitted_channels[c] == channel::torque_cmd_Nm && rounding_is_left_[r]) {
             for (std::size_t i = 0; i < channels[c].size(); ++i) channels[c][i] *= reading_weights_[r][i];
           }
           std::copy(channels[c].begin(), channels[c].end(), all.col(p).data() + at);
@@ -201,6 +227,7 @@ class ResidualStack {
   std::vector<MeteredPower> meters_;
   std::vector<std::vector<double>> reading_weights_;  ///< by run and row
   std::array<bool, fitted_channels.size()> given_{};
+  std::vector<bool> rounding_is_left_;  ///< by run, when it was weighed
   double power_rms_W_ = 1.0, growth_ = 0.0;
   std::array<Whitening, fitted_channels.size()> whitening_;
   std::vector<Index> starts_;
@@ -208,18 +235,23 @@ class ResidualStack {
 };
 
 /// Inverse of the information that data and prior hold. What whitening left correlated, or of changing size, is taken up by
-/// summing the scores block by block (sandwich); the wider of the two variances counts.
+/// summing the scores over short times (sandwich), all channels of a run together: an encoder's rounding moves the simulated
+/// axis, and with it every channel at once. The wider of the two variances counts.
 MatrixXd covariance_of(const LeastSquaresSolution& at, const ResidualStack& stack) {
   const MatrixXd information = at.jacobian.transpose() * at.jacobian;
   const MatrixXd inverse = information.ldlt().solve(MatrixXd::Identity(information.rows(), information.cols()));
   MatrixXd scores = MatrixXd::Zero(information.rows(), information.cols());
   const auto& starts = stack.starts();
-  for (std::size_t s = 0; s + 1 < starts.size(); ++s) {
-    const Index length = starts[s + 1] - starts[s];
-    const Index block = std::min<Index>(static_cast<Index>(block_samples), std::max<Index>(length / 20, 1));
-    for (Index first = starts[s]; first < starts[s + 1]; first += block) {
-      const Index count = std::min(block, starts[s + 1] - first);
-      const VectorXd score = at.jacobian.middleRows(first, count).transpose() * at.residuals.segment(first, count);
+  const std::size_t channels = stack.channels();
+  for (std::size_t run = 0; run + channels < starts.size(); run += channels) {
+    const Index blocks = std::max<Index>((starts[run + 1] - starts[run]) / static_cast<Index>(block_samples), 20);
+    for (Index block = 0; block < blocks; ++block) {
+      VectorXd score = VectorXd::Zero(information.rows());
+      for (std::size_t s = run; s < run + channels; ++s) {
+        const Index length = starts[s + 1] - starts[s];
+        const Index first = starts[s] + length * block / blocks, end = starts[s] + length * (block + 1) / blocks;
+        score += at.jacobian.middleRows(first, end - first).transpose() * at.residuals.segment(first, end - first);
+      }
       scores += score * score.transpose();
     }
   }
