@@ -33,8 +33,8 @@ std::vector<tools::Recording> testbed_runs(const plant::AxisParameters& axis, Se
     runs.back().file = std::string(motion) + std::to_string(runs.size()) + ".csv";
   };
   record("stair", 0.03, 0.12, 10.0);
-  record("sine", 2e-5, 2e-3, 3.0);
-  record("sine", 6e-5, 1.2e-2, 4.0);
+  record("sine", 2e-5, 2e-3, 6.0);
+  record("sine", 6e-5, 6e-3, 4.0);
   record("sine", 0.02, 0.06, 4.0);
   return runs;
 }
