@@ -10,7 +10,9 @@
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
+#include "tools/diagnose/judge.h"
 #include "tools/diagnose/sentence.h"
+#include "tools/diagnose/structure.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -31,13 +33,8 @@ InverseModel model_of(const std::vector<Recording>& recordings, const plant::Axi
   return {std::move(tracks), axis};
 }
 
-/// Small ones stay in the model as nuisances, since they explain how the sensors read, but are no finding.
 bool worth_naming(const Active& active) {
-  const auto id = active.hypothesis->id;
-  if (id == "channel_skew") return std::max(active.q[0], active.q[1]) > 1.2e-3;
-  if (id == "presliding_memory") return active.q[0] > 20.0;  // below that it is how LuGre itself simplifies
-  if (id == "screw_compliance") return active.q[0] > 1e-8;   // softer than 100 N/um
-  return true;
+  return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
 }
 
 /// Where in the list of unknowns an effect's working parameters stand; -1 for those that are not fitted.
@@ -54,37 +51,39 @@ std::vector<Index> places_of(const Fit& fit, std::size_t effect) {
 }
 
 /// Intervals of what is reported, from the covariance of what was fitted.
-std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, std::size_t effect, double inflation) {
+std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Eigen::MatrixXd& covariance,
+                                                        std::size_t effect) {
   const auto& active = fit.model.effects[effect];
   const auto& axis = fit.model.axis;
   const auto places = places_of(fit, effect);
   const auto now = active.hypothesis->named(active.q, axis);
   std::vector<std::pair<std::string, Estimate>> out;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    Vector slope = Vector::Zero(fit.covariance.rows());
+    Vector slope = Vector::Zero(covariance.rows());
     for (std::size_t j = 0; j < active.q.size(); ++j) {
       if (places[j] < 0) continue;
-      const double sigma = std::sqrt(std::max(0.0, fit.covariance(places[j], places[j])));
+      const double sigma = std::sqrt(std::max(0.0, covariance(places[j], places[j])));
       const double step = 1e-3 * std::max(sigma, 1e-6 * std::abs(active.q[j])) + 1e-300;
       auto near = active.q;
       near[j] += step;
       slope[places[j]] = (active.hypothesis->named(near, axis)[i].value - now[i].value) / step;
     }
-    const double sigma = std::sqrt(std::max(0.0, slope.dot(fit.covariance * slope))) * inflation;
+    const double sigma = std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
+    if (sigma > 1e3 * (std::abs(now[i].value) + 1e-9)) continue;  // of a channel that is not there
     out.push_back({now[i].name, {now[i].value, now[i].value - z90 * sigma, now[i].value + z90 * sigma}});
   }
   return out;
 }
 
-std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, double inflation) {
+std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
   std::vector<Recalibrated> out;
   for (std::size_t i = 0; i < fitter.base().size(); ++i) {
     const auto& parameter = fitter.base()[i];
     const double was = value_of(parameter, fitter.nominal()), now = value_of(parameter, fit.model.axis);
     const auto at = static_cast<Index>(i);
-    const double in_tolerances = std::sqrt(std::max(0.0, fit.covariance(at, at)));
-    const double sigma = in_tolerances * fitter.tolerance(i) * inflation;
-    const bool told_by_data = in_tolerances * inflation < 0.5;
+    const double in_tolerances = std::sqrt(std::max(0.0, covariance(at, at)));
+    const double sigma = in_tolerances * fitter.tolerance(i);
+    const bool told_by_data = in_tolerances < 0.5;
     if (told_by_data && std::abs(now - was) > 3.0 * sigma && std::abs(now - was) > 2e-3 * std::abs(was))
       out.push_back({std::string(parameter.entry->key), was, {now, now - z90 * sigma, now + z90 * sigma}});
   }
@@ -187,6 +186,58 @@ void keep_confirmed(const ForwardModel& unseen, const Fitter& fitter, SearchResu
   }
 }
 
+NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance, const InverseModel& model) {
+  NamedEffect effect;
+  effect.hypothesis = one.effect.hypothesis;
+  for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
+    if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, covariance, e);
+  effect.share = one.share;
+  effect.p_false_alarm = one.p_false_alarm;
+  effect.intervals = acts_in(effect, model);
+  for (const auto* rival : one.rivals) effect.alternatives.emplace_back(rival->id);
+  const auto beside = std::string(effect.hypothesis->always_beside);
+  if (!beside.empty() && std::ranges::find(effect.alternatives, beside) == effect.alternatives.end())
+    effect.alternatives.push_back(beside);
+  effect.sentence = sentence_of(effect);
+  return effect;
+}
+
+bool anything_missing(const Diagnosis& result) {
+  const auto is_physics = [](const NamedEffect& e) { return !e.hypothesis->number_of_the_model; };
+  return !result.setup.empty() || std::ranges::any_of(result.effects, is_physics);
+}
+
+const char* verdict_of(const Diagnosis& result) {
+  const auto open = [](const NamedEffect& e) { return !e.alternatives.empty() && !e.hypothesis->number_of_the_model; };
+  if (std::ranges::any_of(result.effects, open)) return "named-set";
+  if (anything_missing(result)) return "named";
+  return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
+}
+
+/// Is too much of what the recalibrated model leaves over structure that the named effects do not explain?
+bool beyond_the_catalogue(const InverseModel& model, const SearchResult& found, const Candidate& final,
+                          const std::function<void(std::string_view)>& progress) {
+  constexpr double least_share = 0.3, least_N = 0.7, unexplained = 0.2;
+  const Structure before = remaining_structure(model, found.recalibrated.model);
+  const Structure after = remaining_structure(model, final);
+  const double structure = std::pow(after.structured_N(), 2);
+  const double explained = std::max(0.0, before.remainder_N * before.remainder_N - after.remainder_N * after.remainder_N);
+  progress(fmt::format("structure: {:.2g} N of {:.2g} N left over; before naming {:.2g} N of {:.2g} N", after.structured_N(),
+                       after.remainder_N, before.structured_N(), before.remainder_N));
+  return after.share > least_share && after.structured_N() > least_N && structure > unexplained * (structure + explained);
+}
+
+/// Takes back the names that rest on the force; what is left of the model.
+Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
+  const auto on_force = [](const Hypothesis& h) { return h.channel != "scale_position_m" && h.channel != "power_W"; };
+  std::erase_if(result.effects, [&](const NamedEffect& e) { return on_force(*e.hypothesis); });
+  result.verdict = "unknown";
+  Candidate told = found.recalibrated.model;
+  for (const auto& active : final.effects)
+    if (!on_force(*active.hypothesis)) told.effects.push_back(active);
+  return told;
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)>& progress) {
@@ -196,72 +247,58 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   for (const auto& fault : result.setup) progress(fault.sentence);
   progress("following friction along " + std::to_string(data.fit.size()) + " runs");
   const InverseModel model = model_of(data.fit, data.axis);
+  for (auto& fault : check_meter(model.tracks().front(), data.axis)) result.setup.push_back(std::move(fault));
   const Fitter fitter(model, data.axis);
   SearchResult found = search(fitter, Bar{}, progress);
   Fit fit = found.final;
-  double inflation = std::sqrt(std::max(1.0, fit.cost / static_cast<double>(model.rows())));
   ForwardModel forward(data.fit, data);
   forward.learn_meter(extended(fit.model));
   const auto& unseen = data.holdout.empty() ? data.fit : data.holdout;
   ForwardModel simulated(unseen, data);
   simulated.take_meter_from(forward);
   keep_confirmed(simulated, fitter, found, fit, progress);
-  if (!fit.model.effects.empty()) {
+  const double inflation = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
+  Eigen::MatrixXd covariance = inflation * robust_covariance(model, fit);
+  const bool unknown = beyond_the_catalogue(model, found, fit.model, progress);
+  if (!unknown && !fit.model.effects.empty()) {
     progress("polishing the numbers by closed-loop simulation");
     auto polished = polish(forward, fitter, fit.model);
     fit.model = polished.model;
-    fit.covariance = polished.covariance;
-    inflation = 1.0;
+    covariance = polished.covariance;
   }
 
-  bool missing = false, undecided = false;
-  for (const auto& one : found.found) {
-    if (!worth_naming(one.effect)) continue;
-    NamedEffect effect;
-    effect.hypothesis = one.effect.hypothesis;
-    for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
-      if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, e, inflation);
-    effect.share = one.share;
-    effect.p_false_alarm = one.p_false_alarm;
-    effect.intervals = acts_in(effect, model);
-    for (const auto* rival : one.rivals) effect.alternatives.emplace_back(rival->id);
-    missing = missing || !effect.hypothesis->number_of_the_model;
-    undecided = undecided || (!effect.alternatives.empty() && !effect.hypothesis->number_of_the_model);
-    effect.sentence = sentence_of(effect);
-    result.effects.push_back(std::move(effect));
-  }
-  result.recalibrated = recalibrated(fitter, fit, inflation);
+  for (const auto& one : found.found)
+    if (worth_naming(one.effect)) result.effects.push_back(named_effect(one, fit, covariance, model));
+  result.recalibrated = recalibrated(fitter, fit, covariance);
   result.updated = extended(fit.model, worth_naming);
-  missing = missing || !result.setup.empty();
-  result.verdict = undecided                                               ? "named-set"
-                   : missing                                               ? "named"
-                   : result.recalibrated.empty() && result.effects.empty() ? "agrees"
-                                                                           : "recalibrate";
-  result.detection_limit_N = std::sqrt(Bar{}.share) * found.whitening.residual_rms(0);
+  result.verdict = verdict_of(result);
+  result.detection_limit_N = 0.2 * std::max(Bar{}.force_N, found.whitening.residual_rms(0));
 
   progress("figures on what the fit did not see");
   const Candidate nominal{data.axis, {}};
   const InverseModel held_out = model_of(unseen, data.axis);
-  if (!missing && !data.holdout.empty()) {
-    const Learned learned = learn_remainder(model, held_out, fit.model);
-    progress(fmt::format("a learned table would explain {:.0f} % of the {:.2g} N left over on held-out runs",
-                         100.0 * learned.share_held_out, learned.remainder_N));
-    if (learned.share_held_out > smallest_share_held_out && learned.remainder_N > smallest_remainder_N) {
-      result.verdict = "unknown";
-      result.unknown = learned;
-      extend(result.updated, learned);
-    }
+  Candidate told = fit.model;
+  if (unknown) told = only_what_the_force_does_not_show(result, found, fit.model);
+  const Learned learned = learn_remainder(model, held_out, told);
+  progress(fmt::format("a learned table would explain {:.0f} % of the {:.2g} N left over on held-out runs",
+                       100.0 * learned.share_held_out, learned.remainder_N));
+  const bool repeats = learned.share_held_out > smallest_share_held_out && learned.remainder_N > smallest_remainder_N;
+  if (unknown || (repeats && !anything_missing(result))) {
+    result.verdict = "unknown";
+    result.unknown = learned;
+    result.updated = extended(told, worth_naming);
+    if (repeats) extend(result.updated, learned);
   }
   forward.learn_meter_noise(result.updated);
   simulated.take_meter_from(forward);
-  result.holdout_inverse = figures(held_out, nominal, found.recalibrated.model, fit.model);
+  result.holdout_inverse = figures(held_out, nominal, found.recalibrated.model, told);
   result.holdout = figures(simulated, data.axis, extended(found.recalibrated.model), result.updated);
   std::vector<const Hypothesis*> named;
   for (const auto& effect : result.effects) named.push_back(effect.hypothesis);
   result.pictures =
       pictures(simulated, held_out.tracks(), {data.axis, extended(found.recalibrated.model), result.updated}, named);
   result.energy_before = energy(held_out, nominal);
-  result.energy_after = energy(held_out, fit.model);
+  result.energy_after = energy(held_out, told);
   plan_next(result);
   result.summary = summary_of(result);
   return result;

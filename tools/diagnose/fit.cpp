@@ -114,15 +114,18 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
 Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iterations) const {
   Fit best = linearised(start, whitening);
   for (int i = 0; i < iterations; ++i) {
-    const Vector step = best.covariance * (best.jacobian.transpose() * best.white);
-    double length = 1.0;
+    const Eigen::MatrixXd information = best.jacobian.transpose() * best.jacobian;
+    const Vector slope = best.jacobian.transpose() * best.white;
     bool better = false;
     Candidate next;
     double cost = best.cost;
-    for (int halving = 0; halving < 5 && !better; ++halving, length *= 0.5) {
-      next = moved(best.model, length * step);
+    for (const double damping : {1e-12, 1e-3, 3e-2, 0.3, 3.0}) {  // Levenberg and Marquardt
+      Eigen::MatrixXd damped = information;
+      damped.diagonal() += damping * information.diagonal() + Vector::Constant(slope.size(), 1e-12);
+      next = moved(best.model, damped.ldlt().solve(slope));
       cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
       better = cost < best.cost;
+      if (better) break;
     }
     if (!better) break;
     const double gain = best.cost - cost;

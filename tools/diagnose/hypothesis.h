@@ -73,7 +73,15 @@ struct Hypothesis {
   std::string_view sentence;         ///< what it is, in an engineer's words; {name} stands for a value with its interval
   bool number_of_the_model = false;  ///< payload, gravity: a wrong number rather than missing physics
   bool absorbed = false;             ///< the nominal numbers can take most of it: only what they may not be tells it
+  /// Least strength to be named: what it leaves over, rms, by the rms of what is left over with it.
+  double least_strength = 0.2;
+  bool about_reversals = false;  ///< acts there first: its strength counts there too
+  /// Is this size a finding? Smaller ones stay in the model as nuisances, since they explain how the channels read.
+  bool (*finding)(std::span<const double> q) = nullptr;
   std::vector<std::string_view> confused_with;
+  std::string_view always_beside = {};  ///< obeys the same equation: always an alternative
+  /// The grid where it depends on where the axis was; in place of `shapes`.
+  std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
 
   bool friction = false;  ///< sets the factors, so that friction must be followed again
 };
@@ -85,5 +93,7 @@ struct Hypothesis {
 void add(Vector& sum, const Vector& more);
 /// Multiplies factors that may still be empty.
 void scale(Vector& factors, const Vector& more);
+/// All that one effect adds, on top of what others do.
+void add(Contribution& sum, const Contribution& more);
 
 }  // namespace feedtwin::tools::diagnosis

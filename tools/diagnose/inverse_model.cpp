@@ -95,6 +95,34 @@ InverseModel::InverseModel(std::vector<Track> tracks, const plant::AxisParameter
       power_ = power_ || equations_[e].power;
     }
   weigh_noise();
+  find_settled();
+}
+
+void InverseModel::find_settled() {
+  constexpr double presliding_m = 5e-5, smeared_s = 0.03, filter_s = 0.01;
+  settled_.assign(static_cast<std::size_t>(rows_), true);
+  for (const auto& segment : segments_) {
+    const auto& equation = equations_[segment.equation];
+    if (equation.slip || equation.power) continue;
+    const Track& track = tracks_[segment.run];
+    std::vector<bool> slides(static_cast<std::size_t>(track.size));
+    double travelled_m = 1.0, elapsed_s = 1.0, direction = 0.0;
+    for (Index k = 0; k < track.size; ++k) {
+      const double v = track.centred_m_per_s[k];
+      const double now = std::abs(v) < standstill_m_per_s ? 0.0 : (v > 0.0 ? 1.0 : -1.0);
+      if (now == 0.0 || now != direction) travelled_m = elapsed_s = 0.0;
+      direction = now;
+      travelled_m += std::abs(v) * track.sample_s;
+      elapsed_s += track.sample_s;
+      slides[static_cast<std::size_t>(k)] = travelled_m > presliding_m && elapsed_s > smeared_s;
+    }
+    const Index ahead = std::lround(filter_s / track.sample_s);
+    for (Index i = 0; i < segment.size; ++i) {
+      const Index k = sample_of(segment, i);
+      settled_[static_cast<std::size_t>(segment.start + i)] =
+          slides[static_cast<std::size_t>(k)] && slides[static_cast<std::size_t>(std::min(k + ahead, track.size - 1))];
+    }
+  }
 }
 
 void InverseModel::weigh_noise() {
@@ -326,8 +354,10 @@ Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& mod
     const View view{tracks_[run], axis, model.base[run]};
     Contribution alone;
     more.hypothesis->apply(view, more.q, alone);
+    const bool any = std::ranges::any_of(equations_, [&alone](const Equation& e) { return touches(alone, e); });
+    if (!any) continue;
     Contribution sum = model.extra[run];
-    more.hypothesis->apply(view, more.q, sum);
+    add(sum, alone);
     for (const auto& segment : segments_) {
       const auto& equation = equations_[segment.equation];
       if (segment.run != run || segment.size == 0 || !touches(alone, equation)) continue;

@@ -56,6 +56,8 @@ class InverseModel {
   [[nodiscard]] Index rows() const { return rows_; }
   [[nodiscard]] bool power_recorded() const { return power_; }
   [[nodiscard]] const RowNoise& noise() const { return noise_; }
+  /// Is the axis, about this row, beyond the pre-sliding that follows a reversal or a rest? True outside force equations.
+  [[nodiscard]] bool settled(Index row) const { return settled_[static_cast<std::size_t>(row)]; }
   /// Samples between two rows of a force equation, and how many are dropped at either end.
   static constexpr Index decimation = 4, margin = 24;
   /// The sample at which a row stands.
@@ -89,6 +91,7 @@ class InverseModel {
   [[nodiscard]] Vector recorded_side(const Equation& equation, std::size_t run) const;
   /// Standard deviation of the measured acceleration about a smooth one, and the share of an equation's noise that it makes.
   void weigh_noise();
+  void find_settled();
   void store(const Segment& segment, const Vector& raw, Vector& rows) const;
 
   std::vector<Track> tracks_;
@@ -97,6 +100,7 @@ class InverseModel {
   std::vector<Segment> segments_;
   std::vector<double> acceleration_share_;  ///< of each equation's noise variance
   RowNoise noise_;
+  std::vector<bool> settled_;
   Index rows_ = 0;
   bool power_ = false;
 };

@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -49,6 +51,35 @@ std::vector<double> with_shape(const Hypothesis& hypothesis, const std::vector<d
   return q;
 }
 
+/// Power of the whitened residual at a frequency, over all runs.
+double line_power(const InverseModel& model, const Vector& white, double frequency_Hz) {
+  double power = 0.0;
+  for (const auto& s : model.segments()) {
+    const auto& equation = model.equations()[s.equation];
+    if (!equation.guide || s.size == 0) continue;
+    const double per_row = 2.0 * std::numbers::pi * frequency_Hz * InverseModel::decimation * model.tracks()[s.run].sample_s;
+    const std::complex<double> turn = std::polar(1.0, per_row);
+    std::complex<double> phase = 1.0, sum = 0.0;
+    for (Index k = 0; k < s.size; ++k, phase *= turn) sum += white[s.start + k] * phase;
+    power += std::norm(sum) / static_cast<double>(s.size);
+  }
+  return power;
+}
+
+/// The shapes that are worth asking about: of frequencies the strongest lines, some others for what chance does.
+std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const InverseModel& model, const Vector& white) {
+  auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks()) : hypothesis.shapes;
+  if (hypothesis.where != Where::frequency) return grid;
+  constexpr std::size_t strongest = 12, spread = 12;
+  std::vector<std::pair<double, std::size_t>> lines;
+  for (std::size_t i = 0; i < grid.size(); ++i) lines.emplace_back(line_power(model, white, grid[i][0]), i);
+  std::ranges::sort(lines, std::greater{});
+  std::vector<std::vector<double>> kept;
+  for (std::size_t i = 0; i < std::min(strongest, lines.size()); ++i) kept.push_back(grid[lines[i].second]);
+  for (std::size_t i = 0; i < grid.size(); i += 1 + grid.size() / spread) kept.push_back(grid[i]);
+  return kept;
+}
+
 }  // namespace
 
 double Screen::p_false_alarm(double standard) const {
@@ -88,13 +119,15 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
     return fit.residual - model.residual(fit.model.axis, effects);
   };
   std::vector<Task> tasks;
+  std::vector<std::vector<std::vector<double>>> grids;
+  for (const auto& hypothesis : hypotheses()) grids.push_back(grid_of(hypothesis, model, left));
   for (const auto& hypothesis : hypotheses()) {
+    const auto& shapes = grids[static_cast<std::size_t>(&hypothesis - hypotheses().data())];
     const bool present =
         std::ranges::any_of(fit.model.effects, [&](const Active& a) { return a.hypothesis == &hypothesis; });
     if (present) continue;
-    const std::size_t every = 1 + hypothesis.shapes.size() / most_by_chance;
-    for (std::size_t i = 0; i < hypothesis.shapes.size(); ++i)
-      tasks.push_back({&hypothesis, &hypothesis.shapes[i], i % every == 0});
+    const std::size_t every = 1 + shapes.size() / most_by_chance;
+    for (std::size_t i = 0; i < shapes.size(); ++i) tasks.push_back({&hypothesis, &shapes[i], i % every == 0});
   }
   std::vector<Score> found(tasks.size());
   Eigen::MatrixXd gains(static_cast<Index>(tasks.size()), surrogates);

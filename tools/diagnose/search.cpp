@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "tools/diagnose/judge.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr int rounds = 3, iterations = 6;
-constexpr std::size_t refitted = 3;
+constexpr std::size_t refitted = 4, rivals_tried = 4;
 
 double prior_part(const Fit& fit) {
   return fit.white.tail(fit.base_count()).squaredNorm();
@@ -19,60 +24,39 @@ bool possible(const Active& active, const plant::AxisParameters& axis) {
   return active.hypothesis->admissible == nullptr || active.hypothesis->admissible(active.q, axis);
 }
 
-struct Step {
-  Fit fit;
-  double gain = -1.0, surprise = 0.0, p = 1.0, touched = 0.0;
+std::size_t freedom(const Hypothesis& hypothesis) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(hypothesis.parameters, [](const auto& p) { return p.kind != Kind::fixed; }));
+}
+
+/// Is what an effect does, against a fit that does without it, enough to name it?
+struct Verdict {
+  double gain = 0.0, surprise = 0.0, strength = 0.0;
+  bool enough = false;
 };
 
-/// The best of the hypotheses that pass the bar, refitted jointly.
-Step best_step(const Fitter& fitter, const Fit& now, const Whitening& whitening, const Screen& screened, const Bar& bar) {
-  Step best;
-  const double left_N = std::max(1e-9, whitening.residual_rms(0));
-  std::size_t tried = 0;
-  for (const auto& score : screened.scores) {
-    const double p = screened.p_false_alarm(score.standard);
-    const bool force = score.hypothesis->channel != "power_W" && score.hypothesis->channel != "scale_position_m";
-    const double smallness = force ? std::pow(std::max(1.0, bar.smallest_residual_N / left_N), 2) : 1.0;
-    // a gain scales everything: the nominal numbers alone can't tell it
-    const double enough_surprise = score.hypothesis->id == "torque_gain_error" ? 1e300 : bar.nominal_surprise;
-    const double needed = (score.hypothesis->id == "local_friction" ? 0.2
-                           : score.hypothesis->absorbed             ? bar.share_if_absorbed
-                                                                    : bar.share) *
-                          score.touched * smallness;
-    const double most_surprise = prior_part(now);
-    if (score.gain < needed && (most_surprise < enough_surprise || score.gain < enough_surprise)) continue;
-    if (p > bar.p_false_alarm) continue;
-    if (++tried > refitted) break;
-    Candidate start = now.model;
-    start.effects.push_back(at_zero(score));
-    Fit fit = fitter.fit(start, whitening, iterations);
-    if (!possible(fit.model.effects.back(), fit.model.axis)) continue;
-    const double gain = now.cost - fit.cost, surprise = prior_part(now) - prior_part(fit);
-    if (gain < needed && surprise < enough_surprise) continue;
-    if (gain > best.gain) best = {std::move(fit), gain, surprise, p, score.touched};
-  }
-  return best;
+Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const Hypothesis& hypothesis, const Bar& bar) {
+  Verdict v;
+  v.gain = without.cost - with.cost;
+  v.surprise = prior_part(without) - prior_part(with);
+  v.strength = strength(fitter.model(), with, without, hypothesis, bar);
+  const double needed = bar.gain + bar.per_parameter * static_cast<double>(freedom(hypothesis) - 1);
+  const bool doubtful = hypothesis.absorbed && v.surprise < -bar.against_nominal;
+  const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
+  const bool strong = v.strength > least && v.gain > needed;
+  const bool impossible_otherwise =
+      hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain && v.strength > bar.absorbed_strength;
+  v.enough = strong || impossible_otherwise;
+  return v;
 }
 
-/// Cost in the equations that an effect of the model has a part in.
-double touched_cost(const Fitter& fitter, const Fit& fit, std::size_t effect) {
-  Index column = fit.base_count();
-  for (std::size_t e = 0; e < effect; ++e)
-    for (const auto& p : fit.model.effects[e].hypothesis->parameters) column += p.kind != Kind::fixed;
-  double cost = 0.0;
-  for (const auto& s : fitter.model().segments())
-    if (s.size > 0 && fit.jacobian.col(column).segment(s.start, s.size).cwiseAbs().maxCoeff() > 0.0)
-      cost += fit.white.segment(s.start, s.size).squaredNorm();
-  return cost;
-}
-
-/// "cogging would explain 86 % (p 1e-06), ..." for whoever waits.
+/// "cogging 0.9 of the residual's rms (p 1e-06), ..." for whoever waits.
 std::string best_of(const Screen& screened) {
   std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(5, screened.scores.size()); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(6, screened.scores.size()); ++i) {
     const auto& score = screened.scores[i];
-    text += fmt::format("{}{} would explain {:.1f} % (p {:.1g})", i > 0 ? ", " : "", score.hypothesis->id,
-                        100.0 * score.gain / std::max(1.0, score.touched),
+    text += fmt::format("{}{} would explain {:.1f} % (gain {:.0f}, p {:.1g})", i > 0 ? ", " : "", score.hypothesis->id,
+                        100.0 * score.gain / std::max(1.0, score.touched), score.gain,
                         std::max(1e-9, screened.p_false_alarm(score.standard)));
   }
   return text;
@@ -84,67 +68,197 @@ Candidate without(const Candidate& model, std::size_t effect) {
   return less;
 }
 
+class Search {
+ public:
+  Search(const Fitter& fitter, const Bar& bar, const std::function<void(std::string_view)>& progress)
+      : fitter_(fitter), bar_(bar), progress_(progress) {}
+
+  SearchResult run() {
+    SearchResult result;
+    const Candidate nominal{fitter_.nominal(), {}};
+    whitening_ = Whitening::estimate(fitter_.model(), fitter_.model().residual(nominal.axis, {}));
+    progress_("recalibrating the nominal numbers");
+    fit_ = fitter_.fit_with_colour(nominal, whitening_, rounds, iterations);
+    result.recalibrated = fit_;
+    for (std::size_t step = 0; step < 3 * bar_.most_effects; ++step) {
+      progress_(fmt::format("asking {} hypotheses about the residual", hypotheses().size()));
+      last_ = screen(fitter_, fit_, whitening_);
+      progress_(best_of(last_));
+      if (fit_.model.effects.size() >= bar_.most_effects || !add_best()) break;
+      drop_needless();
+    }
+    drop_needless();
+    confirm(result);
+    result.final = fit_;
+    result.whitening = whitening_;
+    result.last = last_;
+    return result;
+  }
+
+ private:
+  /// The best of the hypotheses that pass the bar, refitted jointly.
+  bool add_best() {
+    std::optional<Fit> best;
+    double most = 0.0, p_best = 1.0;
+    std::size_t tried = 0;
+    std::vector<Score> scores = last_.scores;
+    const auto worth = [this](const Score& s) {
+      return s.gain - bar_.per_parameter * static_cast<double>(freedom(*s.hypothesis));
+    };
+    std::ranges::stable_sort(scores, std::greater{}, worth);
+    for (const auto& score : scores) {
+      const double p = last_.p_false_alarm(score.standard);
+      if (score.gain < bar_.gain || p > bar_.p_false_alarm || dropped_.contains(score.hypothesis)) continue;
+      if (++tried > refitted) break;
+      Candidate start = fit_.model;
+      start.effects.push_back(at_zero(score));
+      Fit fit = fitter_.fit(start, whitening_, iterations);
+      if (!possible(fit.model.effects.back(), fit.model.axis)) continue;
+      const auto verdict = judged(fitter_, fit, fit_, *score.hypothesis, bar_);
+      progress_(fmt::format("  {}: gain {:.0f}, surprise {:.0f}, strength {:.2f}", score.hypothesis->id, verdict.gain,
+                            verdict.surprise, verdict.strength));
+      if (!verdict.enough) continue;
+      const double value = verdict.gain - bar_.per_parameter * static_cast<double>(freedom(*score.hypothesis));
+      if (value > most) most = value, p_best = p, best = std::move(fit);
+    }
+    if (!best) return false;
+    progress_("adding " + std::string(best->model.effects.back().hypothesis->id));
+    chances_.push_back(p_best);
+    earlier_.push_back(last_.scores);
+    fit_ = fitter_.fit_with_colour(best->model, whitening_, 2, iterations);
+    return true;
+  }
+
+  void drop(std::size_t effect, const Candidate& less) {
+    progress_("without " + std::string(fit_.model.effects[effect].hypothesis->id));
+    dropped_.insert(fit_.model.effects[effect].hypothesis);
+    chances_.erase(chances_.begin() + static_cast<std::ptrdiff_t>(effect));
+    earlier_.erase(earlier_.begin() + static_cast<std::ptrdiff_t>(effect));
+    fit_ = fitter_.fit_with_colour(less, whitening_, 2, iterations);
+  }
+
+  /// Takes out, one after the other, what the rest can do without.
+  void drop_needless() {
+    for (bool again = true; again && !fit_.model.effects.empty();) {
+      again = false;
+      std::size_t weakest = 0;
+      double least = 1e300;
+      Candidate less;
+      for (std::size_t i = 0; i < fit_.model.effects.size(); ++i) {
+        const auto& active = fit_.model.effects[i];
+        const Fit other = fitter_.fit(without(fit_.model, i), whitening_, iterations);
+        const auto verdict = judged(fitter_, fit_, other, *active.hypothesis, bar_);
+        const bool needed = verdict.enough && possible(active, fit_.model.axis);
+        if (needed || verdict.gain > least) continue;
+        least = verdict.gain, weakest = i, less = other.model, again = true;
+      }
+      if (again) drop(weakest, less);
+    }
+  }
+
+  /// Puts an equal or better one in an effect's place where there is one; notes those that fit as well.
+  bool exchange(std::size_t i, const Fit& less, double gain, Found& found) {
+    double own = 0.0;
+    for (const auto& score : earlier_[i])
+      if (score.hypothesis == found.effect.hypothesis) own = score.gain;
+    std::size_t tried = 0;
+    for (const auto& score : earlier_[i]) {
+      const auto* rival = score.hypothesis;
+      const bool there = std::ranges::any_of(fit_.model.effects, [rival](const Active& a) { return a.hypothesis == rival; });
+      if (there || score.gain < 0.7 * own || ++tried > rivals_tried) continue;
+      Candidate start = less.model;
+      start.effects.push_back(at_zero(score));
+      const Fit fit = fitter_.fit(start, whitening_, iterations);
+      const Active& other = fit.model.effects.back();
+      const bool nuisance = rival->finding != nullptr && !rival->finding(other.q);
+      if (nuisance || !possible(other, fit.model.axis)) continue;
+      const double more = bar_.per_parameter *
+                          (static_cast<double>(freedom(*rival)) - static_cast<double>(freedom(*found.effect.hypothesis)));
+      const double worse = fit.cost + more - fit_.cost;
+      if (worse < -10.0) {
+        progress_(fmt::format("{} in place of {}", rival->id, found.effect.hypothesis->id));
+        dropped_.insert(found.effect.hypothesis);
+        chances_[i] = last_.p_false_alarm(score.standard);
+        Candidate swapped = fit.model;  // in the same place
+        std::rotate(swapped.effects.begin() + static_cast<std::ptrdiff_t>(i), swapped.effects.end() - 1,
+                    swapped.effects.end());
+        fit_ = fitter_.fit_with_colour(swapped, whitening_, 2, iterations);
+        return true;
+      }
+      if (worse < std::min(0.03 * gain, 0.005 * fit_.cost) + 15.0) found.rivals.push_back(rival);
+    }
+    return false;
+  }
+
+  /// The last question to each: does it hold on stretches that it was not fitted to, and could another stand for it?
+  void confirm(SearchResult& result) {
+    while (!settled(result)) result.found.clear();
+    std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
+  }
+
+  /// False when an effect was taken out or exchanged, so that all must be asked again.
+  bool settled(SearchResult& result) {
+    const std::size_t count = fit_.model.effects.size();
+    std::vector<Fit> less;
+    std::vector<Verdict> verdicts;
+    for (std::size_t i = 0; i < count; ++i) {
+      less.push_back(fitter_.fit(without(fit_.model, i), whitening_, iterations));
+      verdicts.push_back(judged(fitter_, fit_, less[i], *fit_.model.effects[i].hypothesis, bar_));
+    }
+    std::vector<std::size_t> weakest_first(count);
+    std::iota(weakest_first.begin(), weakest_first.end(), 0U);
+    std::ranges::stable_sort(weakest_first, std::less{}, [&](std::size_t i) { return verdicts[i].gain; });
+    for (const std::size_t i : weakest_first) {
+      const Active& effect = fit_.model.effects[i];
+      const auto& verdict = verdicts[i];
+      double largest = 0.0;
+      for (std::size_t other = 0; other < count; ++other)
+        if (other != i) largest = std::max(largest, verdicts[other].strength);
+      const auto gains = gains_by_fold(fitter_.model(), fit_, less[i], bar_.folds);
+      // one fold may hold all that a shape parameter is known from: it must not outvote the others
+      const double most_lost = -verdict.gain / static_cast<double>(bar_.folds);
+      double on_unseen = 0.0;
+      for (const double g : gains) on_unseen += std::max(g, most_lost);
+      const auto folds = static_cast<std::size_t>(std::ranges::count_if(gains, [](double g) { return g > 1.0; }));
+      progress_(fmt::format("{}: gain {:.0f}, on unseen folds {:.0f} in {} of {}, surprise {:.0f}, strength {:.2f}",
+                            effect.hypothesis->id, verdict.gain, on_unseen, folds, bar_.folds, verdict.surprise,
+                            verdict.strength));
+      const bool by_surprise = verdict.surprise > 0.5 * verdict.gain;
+      const bool nearly_all = 4 * folds >= 3 * bar_.folds;
+      const bool holds = by_surprise || nearly_all || (on_unseen > 0.4 * verdict.gain && folds >= bar_.folds_that_gain);
+      if (!holds || !verdict.enough || verdict.strength < bar_.beside * largest || !possible(effect, fit_.model.axis)) {
+        drop(i, less[i].model);
+        return false;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Active& effect = fit_.model.effects[i];
+      double touched = 0.0;
+      for (const auto& score : earlier_[i])
+        if (score.hypothesis == effect.hypothesis) touched = std::max(1.0, score.touched);
+      const double share = std::clamp(verdicts[i].gain / (verdicts[i].gain + std::min(touched, fit_.cost)), 0.0, 1.0);
+      Found found{effect, verdicts[i].gain, share, verdicts[i].strength, chances_[i], {}};
+      if (exchange(i, less[i], verdicts[i].gain, found)) return false;
+      result.found.push_back(std::move(found));
+    }
+    return true;
+  }
+
+  const Fitter& fitter_;
+  const Bar& bar_;
+  const std::function<void(std::string_view)>& progress_;
+  Whitening whitening_;
+  Fit fit_;
+  Screen last_;
+  std::vector<double> chances_;
+  std::vector<std::vector<Score>> earlier_;  ///< what else was in question when each was added
+  std::set<const Hypothesis*> dropped_;      ///< not asked again, so that the search ends
+};
+
 }  // namespace
 
 SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<void(std::string_view)>& progress) {
-  SearchResult result;
-  const Candidate nominal{fitter.nominal(), {}};
-  Whitening whitening = Whitening::estimate(fitter.model(), fitter.model().residual(nominal.axis, {}));
-  progress("recalibrating the nominal numbers");
-  Fit fit = fitter.fit_with_colour(nominal, whitening, rounds, iterations);
-  result.recalibrated = fit;
-
-  std::vector<double> chances;
-  std::vector<std::vector<Score>> earlier;  // what else was in question when each was added
-  while (fit.model.effects.size() < bar.most_effects) {
-    progress("asking " + std::to_string(hypotheses().size()) + " hypotheses about the residual");
-    result.last = screen(fitter, fit, whitening);
-    progress(best_of(result.last));
-    Step step = best_step(fitter, fit, whitening, result.last, bar);
-    if (step.gain < 0.0) break;
-    progress("adding " + std::string(step.fit.model.effects.back().hypothesis->id));
-    chances.push_back(step.p);
-    earlier.push_back(result.last.scores);
-    fit = fitter.fit_with_colour(step.fit.model, whitening, 2, iterations);
-  }
-
-  for (std::size_t i = fit.model.effects.size(); i-- > 0;) {
-    progress("doing without " + std::string(fit.model.effects[i].hypothesis->id));
-    const Fit less = fitter.fit(without(fit.model, i), whitening, iterations);
-    const double gain = less.cost - fit.cost, surprise = prior_part(less) - prior_part(fit);
-    const double touched = touched_cost(fitter, fit, i);
-    if ((gain < (fit.model.effects[i].hypothesis->absorbed ? 2.5 : 1.0) * bar.lost_when_dropped * touched &&
-         surprise < bar.nominal_surprise) ||
-        !possible(fit.model.effects[i], fit.model.axis)) {
-      fit = fitter.fit_with_colour(less.model, whitening, 2, iterations);
-      chances.erase(chances.begin() + static_cast<std::ptrdiff_t>(i));
-      earlier.erase(earlier.begin() + static_cast<std::ptrdiff_t>(i));
-      result.found.clear();
-      i = fit.model.effects.size();
-      continue;
-    }
-    Found found{fit.model.effects[i], gain, std::min(1.0, gain / (gain + touched)), chances[i], {}};
-    std::size_t tried = 0;
-    double own = 0.0;
-    for (const auto& score : earlier[i])
-      if (score.hypothesis == found.effect.hypothesis) own = score.gain;
-    for (const auto& score : earlier[i]) {
-      if (score.hypothesis == found.effect.hypothesis || score.gain < 0.8 * own) continue;
-      const auto beside = std::ranges::find(result.last.scores, score.hypothesis, &Score::hypothesis);
-      const bool something_else = beside != result.last.scores.end() && beside->gain > 0.3 * score.gain;
-      if (something_else || ++tried > 3) continue;
-      Candidate start = less.model;
-      start.effects.push_back(at_zero(score));
-      const Fit rival = fitter.fit(start, whitening, iterations);
-      if (possible(rival.model.effects.back(), rival.model.axis) && rival.cost - fit.cost < 0.03 * gain + 15.0)
-        found.rivals.push_back(score.hypothesis);
-    }
-    result.found.insert(result.found.begin(), found);
-  }
-  std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
-  result.final = std::move(fit);
-  result.whitening = whitening;
-  return result;
+  return Search(fitter, bar, progress).run();
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -1,6 +1,7 @@
 #pragma once
-// Which hypotheses the recording asks for: one by one and in pairs, each judged with all numbers floating, each asked again
-// at the end whether it is still needed, and what else could have taken its place.
+// Which hypotheses the recording asks for: each judged with all numbers floating, exchanged for others and dropped until
+// nothing improves; each asked at the end whether it holds on time that it was not fitted to, and what else could have
+// taken its place.
 
 #include <functional>
 #include <string_view>
@@ -12,19 +13,26 @@ namespace feedtwin::tools::diagnosis {
 
 /// What a hypothesis must do to be named.
 struct Bar {
-  double p_false_alarm = 0.005;      ///< over all hypotheses together
-  double share = 0.04;               ///< of what the model before it leaves over, whitened
-  double smallest_residual_N = 0.5;  ///< where less is left over, as much is asked for as if it were this
-  double share_if_absorbed = 0.12;   ///< likewise for what the nominal numbers can nearly do
-  double nominal_surprise = 40.0;    ///< or: fall of the squared deviations of the nominal numbers, in tolerances
-  double lost_when_dropped = 0.03;   ///< share that must come back when it is taken out again
+  double p_false_alarm = 0.005;  ///< over all hypotheses together
+  double gain = 20.0;            ///< fall of the cost; an effect of a fraction of the noise over thousands of rows
+  double per_parameter = 8.0;    ///< and so much more for each further parameter
+  double force_N = 0.5;          ///< where less is left over, strength is counted against this
+  double slip_m = 5e-8, power_W = 0.03;
+  double absorbed_gain = 40.0;  ///< of what the nominal numbers can nearly do: fall of the cost with their deviations
+  double absorbed_strength = 0.15;
+  double against_nominal = 8.0;   ///< rise of the nominal numbers' squared deviations that makes an absorbed one doubtful
+  double strength_against = 0.6;  ///< least strength then
+  double beside = 0.05;           ///< least strength beside another effect, of that one's: models of effects are not perfect
+  std::size_t folds = 8;          ///< stretches of a second, dealt out in turn
+  std::size_t folds_that_gain = 3;
   std::size_t most_effects = 6;
 };
 
 struct Found {
   Active effect;
-  double gain = 0.0;   ///< fall of the cost that it brings, everything else refitted
-  double share = 0.0;  ///< of the cost without it
+  double gain = 0.0;      ///< fall of the cost that it brings, everything else refitted
+  double share = 0.0;     ///< of the cost without it
+  double strength = 0.0;  ///< what is left over without it beyond what is left over with it, as a ratio of rms
   double p_false_alarm = 1.0;
   std::vector<const Hypothesis*> rivals;  ///< fit as well in its place
 };

@@ -88,4 +88,14 @@ std::vector<SetupFault> mend_setup(Case& data) {
   return faults;
 }
 
+std::vector<SetupFault> check_meter(const Track& track, plant::AxisParameters& axis) {
+  const double shown_s = static_cast<double>(track.meter.length) * track.sample_s;
+  double& nominal_s = axis.power_meter_window_s;
+  if (!track.meter.held || std::abs(shown_s - nominal_s) < 1.5 * track.sample_s) return {};
+  const std::string sentence =
+      fmt::format("the power meter averages over {:.3g} s, not over {:.3g} s as configured.", shown_s, nominal_s);
+  nominal_s = shown_s;
+  return {{"power_meter_window", "power", std::string(channel::power_W), sentence, {{"window_s", shown_s}}}};
+}
+
 }  // namespace feedtwin::tools::diagnosis

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/diagnose/track.h"
 #include "tools/recording/case.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -17,5 +18,8 @@ struct SetupFault {
 
 /// Finds the faults and takes them out of the recordings and the axis, so that the rest of the diagnosis sees them no more.
 [[nodiscard]] std::vector<SetupFault> mend_setup(Case& data);
+
+/// The power meter's window as the readings show it against the nominal one; mends the axis.
+[[nodiscard]] std::vector<SetupFault> check_meter(const Track& track, plant::AxisParameters& axis);
 
 }  // namespace feedtwin::tools::diagnosis

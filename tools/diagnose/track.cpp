@@ -106,6 +106,7 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s) {
     }
     return meter;
   }
+  meter.held = true;
   const Index phase = changes.empty() ? 0 : changes.front() % meter.length;
   for (Index k = phase; k + meter.length < power_W.size(); k += meter.length) {
     meter.starts.push_back(k + 1);

@@ -24,7 +24,8 @@ inline constexpr double standstill_m_per_s = 2e-4;
 
 /// Readings of a power meter that shows means over windows.
 struct MeterWindows {
-  Index length = 0;  ///< samples a window
+  Index length = 0;   ///< samples a window
+  bool held = false;  ///< the meter's own; otherwise means that we took
   std::vector<Index> starts;
   std::vector<double> power_W;
 };

@@ -22,30 +22,51 @@ Vector clipped(const Vector& values, double limit) {
   return values.cwiseMax(-limit).cwiseMin(limit);
 }
 
+/// Without the mean of each direction of motion: what is steady is no noise, and must not be whitened away.
+Vector less_steady(const InverseModel& model, const Vector& residual) {
+  Vector out = residual;
+  for (std::size_t e = 0; e < model.equations().size(); ++e) {
+    if (model.equations()[e].power || model.equations()[e].slip) continue;
+    for (const bool forth : {true, false}) {
+      std::vector<Index> rows;
+      for (const auto& s : model.segments())
+        for (Index i = 0; s.equation == e && i < s.size; ++i)
+          if (model.settled(s.start + i) && (model.tracks()[s.run].centred_m_per_s[model.sample_of(s, i)] > 0.0) == forth)
+            rows.push_back(s.start + i);
+      if (!rows.empty()) out(rows).array() -= residual(rows).mean();
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
-Whitening Whitening::estimate(const InverseModel& model, const Vector& residual) {
+Whitening Whitening::estimate(const InverseModel& model, const Vector& given) {
   Whitening made;
+  const Vector residual = less_steady(model, given);
   for (std::size_t e = 0; e < model.equations().size(); ++e) {
-    std::vector<double> all;
+    std::vector<double> settled;
     for (const auto& s : model.segments())
-      if (s.equation == e) all.insert(all.end(), residual.data() + s.start, residual.data() + s.start + s.size);
+      for (Index k = s.start; s.equation == e && k < s.start + s.size; ++k)
+        if (model.settled(k)) settled.push_back(residual[k]);
     double energy = 0.0;
-    for (double value : all) energy += value * value;
-    const double rms = std::sqrt(energy / static_cast<double>(std::max<std::size_t>(1, all.size())));
-    const double limit = clip_at_sigmas * std::max(robust_sigma(all), 0.1 * rms) + 1e-300;
+    for (double value : settled) energy += value * value;
+    const double rms = std::sqrt(energy / static_cast<double>(std::max<std::size_t>(1, settled.size())));
+    const double limit = clip_at_sigmas * std::max(robust_sigma(settled), 0.1 * rms) + 1e-300;
 
     const Index p = model.equations()[e].slip ? 0 : model.equations()[e].power ? 2 : order;  // grids are white
     Vector correlation = Vector::Zero(p + 1);
-    double count = 0.0;
+    double pairs = 0.0;
     for (const auto& s : model.segments()) {
       if (s.equation != e) continue;
-      const Vector r = clipped(residual.segment(s.start, s.size), limit);
-      count += static_cast<double>(s.size);
+      Vector r = clipped(residual.segment(s.start, s.size), limit), here(s.size);
+      for (Index k = 0; k < s.size; ++k) here[k] = model.settled(s.start + k) ? 1.0 : 0.0;
+      r = r.cwiseProduct(here);
+      pairs += here.sum();
       for (Index lag = 0; lag <= p && lag < s.size; ++lag)
         correlation[lag] += r.head(s.size - lag).dot(r.tail(s.size - lag));
     }
-    correlation /= std::max(1.0, count);
+    correlation /= std::max(1.0, pairs);  // for all lags alike: what has gaps keeps a positive spectrum
     correlation[0] = correlation[0] * (1.0 + 1e-6) + 1e-300;
     Eigen::MatrixXd toeplitz(p, p);
     for (Index i = 0; i < p; ++i)
@@ -55,6 +76,15 @@ Whitening Whitening::estimate(const InverseModel& model, const Vector& residual)
     made.coefficients_.push_back(a);
     made.sigma_.push_back(std::sqrt(std::max(innovation, 1e-6 * correlation[0])));
     made.rms_.push_back(std::sqrt(correlation[0]));
+    made.unsettled_.push_back(1.0);
+  }
+  const Vector white = made.applied(model, residual);
+  for (std::size_t e = 0; e < model.equations().size(); ++e) {
+    double square = 0.0, count = 0.0;
+    for (const auto& s : model.segments())
+      for (Index k = s.start; s.equation == e && k < s.start + s.size; ++k)
+        if (!model.settled(k)) square += white[k] * white[k], count += 1.0;
+    if (count > 0.0) made.unsettled_[e] = 1.0 / std::max(1.0, std::sqrt(square / count));
   }
   return made;
 }
@@ -69,7 +99,7 @@ void Whitening::apply(const InverseModel& model, Eigen::Ref<Eigen::MatrixXd> col
       for (Index k = s.size - 1; k >= 0; --k) {
         double value = part[k];
         for (Index j = 1; j <= a.size() && j <= k; ++j) value -= a[j - 1] * part[k - j];
-        part[k] = value * per_sigma;
+        part[k] = value * (model.settled(s.start + k) ? per_sigma : per_sigma * unsettled_[s.equation]);
       }
     }
   }

@@ -46,6 +46,7 @@ Hypothesis backlash() {
           .admissible = possible,
           .sentence = "the table follows the motor with a play of {gap_m} m at every reversal",
 
+          .about_reversals = true,
           .confused_with = {"presliding_memory", "screw_compliance"},
           .friction = false};
 }

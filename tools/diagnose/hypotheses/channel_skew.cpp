@@ -26,6 +26,11 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return std::max(q[0], q[1]) > 6e-4;
 }
 
+/// Below it is how sensors are read.
+bool finding(std::span<const double> q) {
+  return std::max(q[0], q[1]) > 1.2e-3;
+}
+
 }  // namespace
 
 Hypothesis channel_skew() {
@@ -43,6 +48,7 @@ Hypothesis channel_skew() {
       .sentence =
           "the sensors are late against the encoder: torque by {torque_sensor_delay_s} s, force by {force_sensor_delay_s} s",
       .absorbed = true,
+      .finding = finding,
       .confused_with = {"input_delay", "current_loop_lag"},
       .friction = false};
 }

@@ -1,4 +1,4 @@
-// Breakaway that rises with the dwell: more force over the first micrometres after a rest.
+// Breakaway that rises with the dwell: F_C and F_S times 1 + r (1 - exp(-age / T)), d(age)/dt = 1 - |v| age / D.
 
 #include <cmath>
 
@@ -8,42 +8,46 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+constexpr double memory_distance_m = 2e-5;
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  Vector force(track.size);
+  Vector factor(track.size);
+  double age_s = 0.0;
   for (Index k = 0; k < track.size; ++k) {
-    const double v = track.centred_m_per_s[k];
-    const double aged = 1.0 - std::exp(-track.dwell_s[k] / q[1]);
-    force[k] =
-        q[0] * aged * std::tanh(v / standstill_m_per_s) * std::exp(-std::abs(v) / view.axis.ball_screw.stribeck_m_per_s.pos);
+    const double worn = std::abs(track.velocity_m_per_s[k]) * track.sample_s / memory_distance_m, left = std::exp(-worn);
+    age_s = age_s * left + track.sample_s * (worn > 1e-9 ? (1.0 - left) / worn : 1.0);
+    factor[k] = 1.0 + q[0] * (1.0 - std::exp(-age_s / q[1]));
   }
-  add(sum.screw_N, force);
+  scale(sum.screw_sliding, factor);
 }
 
-std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& axis) {
-  return {{"relative_rise", q[0] / axis.ball_screw.coulomb_N.pos}, {"time_constant_s", q[1]}};
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"relative_rise", q[0]}, {"time_constant_s", q[1]}, {"memory_distance_m", memory_distance_m}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.0;
+  return q[0] > 0.03;
 }
 
 }  // namespace
 
 Hypothesis dwell_breakaway() {
-  return {.id = "dwell_breakaway",
-          .component = "ball_screw",
-          .channel = "torque_cmd_Nm",
-          .where = Where::reversal,
-          .parameters = {{"force_N", Kind::amplitude, 0.1}, {"time_constant_s", Kind::shape, 1e-2, 0.01, 20.0}},
-          .shapes = {{0.05}, {0.3}, {2.0}},
-          .apply = apply,
-          .named = named,
-          .admissible = possible,
-          .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
+  return {
+      .id = "dwell_breakaway",
+      .component = "ball_screw",
+      .channel = "torque_cmd_Nm",
+      .where = Where::reversal,
+      .parameters = {{"relative_rise", Kind::amplitude, 1e-2, 0.0, 2.0}, {"time_constant_s", Kind::shape, 1e-2, 0.01, 20.0}},
+      .shapes = {{0.05}, {0.3}, {2.0}},
+      .apply = apply,
+      .named = named,
+      .admissible = possible,
+      .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
 
-          .confused_with = {"presliding_memory"},
-          .friction = false};
+      .about_reversals = true,
+      .confused_with = {"presliding_memory"},
+      .friction = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis

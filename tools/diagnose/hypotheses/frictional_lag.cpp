@@ -1,4 +1,4 @@
-// Frictional lag: sliding friction follows speed after a time.
+// Frictional lag: T du/dt = |v| - u, with g(u) and mu u in place of g(|v|) and mu |v|.
 
 #include <cmath>
 
@@ -8,9 +8,32 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+double steady_N(const plant::LugreParameters& p, bool forth, double speed) {
+  const double coulomb = forth ? p.coulomb_N.pos : p.coulomb_N.neg, most = forth ? p.static_N.pos : p.static_N.neg;
+  return coulomb + (most - coulomb) * std::exp(-speed / (forth ? p.stribeck_m_per_s.pos : p.stribeck_m_per_s.neg));
+}
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const Vector now = view.base.screw_N;
-  add(sum.screw_N, lagged(now, q[0] / view.track.sample_s) - now);
+  const Track& track = view.track;
+  const auto& screw = view.axis.ball_screw;
+  const auto& guide = view.axis.guide;
+  constexpr double small_m_per_s = 1e-4;
+  const double kept = q[0] > 1e-9 ? std::exp(-track.sample_s / q[0]) : 0.0;
+  Vector factor = Vector::Ones(track.size), screw_N(track.size), guide_N(track.size);
+  double film = 0.0;
+  for (Index k = 0; k < track.size; ++k) {
+    const double v = track.velocity_m_per_s[k], speed = std::abs(v);
+    const bool forth = v > 0.0;
+    const double mean = speed + (film - speed) * q[0] / track.sample_s * (1.0 - kept);  // over the sample
+    film = speed + (film - speed) * kept;
+    factor[k] = steady_N(screw, forth, mean) / steady_N(screw, forth, speed);
+    const double late = (forth ? 1.0 : -1.0) * (mean - speed) * speed / (speed + small_m_per_s);
+    screw_N[k] = (forth ? screw.viscous_Ns_per_m.pos : screw.viscous_Ns_per_m.neg) * late;
+    guide_N[k] = (forth ? guide.viscous_Ns_per_m.pos : guide.viscous_Ns_per_m.neg) * late;
+  }
+  scale(sum.screw_sliding, factor);
+  add(sum.screw_N, about_sample(screw_N));
+  add(sum.guide_N, about_sample(guide_N));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -36,7 +59,7 @@ Hypothesis frictional_lag() {
           .sentence = "friction follows speed with a lag of {time_constant_s} s",
 
           .confused_with = {"input_delay", "current_loop_lag"},
-          .friction = false};
+          .friction = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -1,4 +1,4 @@
-// Friction that rises with the load on the nut: F_C and F_S times 1 + c |F|.
+// Friction that rises with the load on the nut: F_C and F_S times 1 + c |F| / F_C, F = M_L a.
 
 #include <cmath>
 
@@ -9,12 +9,19 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const Vector load = view.axis.guide_mass_kg * view.track.table_acceleration_m_per_s2;
-  scale(sum.screw_sliding, (1.0 + q[0] * load.array().abs()).matrix());
+  const Track& track = view.track;
+  const auto& coulomb = view.axis.ball_screw.coulomb_N;
+  Vector factor = Vector::Ones(track.size);
+  for (Index k = 1; k < track.size; ++k) {  // from the smoothed motion: its noise would be rectified
+    const double change = track.table_velocity_m_per_s[k] - track.table_velocity_m_per_s[k - 1];
+    const double nut_N = view.axis.guide_mass_kg * std::abs(change) / track.sample_s;
+    factor[k] += q[0] * nut_N / (track.velocity_m_per_s[k] > 0.0 ? coulomb.pos : coulomb.neg);
+  }
+  scale(sum.screw_sliding, factor);
 }
 
-std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& axis) {
-  return {{"friction_per_load", q[0] * axis.ball_screw.coulomb_N.pos}};
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"friction_per_load", q[0]}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -28,7 +35,7 @@ Hypothesis load_dependent_friction() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"relative_per_N", Kind::amplitude, 1e-4, 0.0, 1.0}},
+          .parameters = {{"friction_per_load", Kind::amplitude, 1e-2, 0.0, 1.0}},
           .shapes = {{}},
           .apply = apply,
           .named = named,

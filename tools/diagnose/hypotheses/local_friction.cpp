@@ -30,13 +30,14 @@ Hypothesis local_friction() {
           .where = Where::position,
           .parameters = {{"force_N", Kind::amplitude, 0.1},
                          {"position_m", Kind::shape, 1e-4, -10.0, 10.0},
-                         {"half_width_m", Kind::shape, 1e-4, 2e-4, 0.05}},
+                         {"half_width_m", Kind::shape, 1e-4, 2e-4, 0.008}},
           .shapes = spots(),
           .apply = apply,
           .named = named,
           .admissible = possible,
           .sentence = "a damaged spot at {centre_m} m, {half_width_m} m to either side, adds {height_N} N of friction",
 
+          .least_strength = 0.25,
           .confused_with = {"position_friction"},
           .friction = false};
 }

@@ -37,6 +37,11 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 0.0;
 }
 
+/// Below it is how one bristle simplifies any real contact of this axis (screw and guide: 75 N).
+bool finding(std::span<const double> q) {
+  return q[0] > 60.0;
+}
+
 }  // namespace
 
 Hypothesis presliding_memory() {
@@ -51,6 +56,8 @@ Hypothesis presliding_memory() {
           .admissible = possible,
           .sentence = "before it slides, friction remembers more than one bristle can: {force_N} N over {distance_m} m",
           .absorbed = true,
+          .about_reversals = true,
+          .finding = finding,
           .confused_with = {"backlash", "dwell_breakaway"},
           .friction = false};
 }

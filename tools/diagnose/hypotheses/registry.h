@@ -31,11 +31,14 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis local_friction();
 [[nodiscard]] Hypothesis dwell_breakaway();
 [[nodiscard]] Hypothesis regeneration_clipped();
-[[nodiscard]] Hypothesis power_meter_window();
 [[nodiscard]] Hypothesis sensor_gain();
 [[nodiscard]] Hypothesis channel_skew();
 [[nodiscard]] Hypothesis torque_saturation();
 [[nodiscard]] Hypothesis floor_vibration();
+[[nodiscard]] Hypothesis hidden_friction_compensation();
+[[nodiscard]] Hypothesis process_force();
+[[nodiscard]] Hypothesis hard_stop();
+[[nodiscard]] Hypothesis count_loss();
 [[nodiscard]] Hypothesis screw_growth();
 [[nodiscard]] Hypothesis load_dependent_friction();
 [[nodiscard]] Hypothesis presliding_memory();

@@ -25,6 +25,11 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 3e-9;
 }
 
+/// Stiffer than 100 N/um is no finding.
+bool finding(std::span<const double> q) {
+  return q[0] > 1e-8;
+}
+
 }  // namespace
 
 Hypothesis screw_compliance() {
@@ -32,13 +37,14 @@ Hypothesis screw_compliance() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::time,
-          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1e-3}},
+          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1.2e-7}},
           .shapes = {{}},
           .apply = apply,
           .named = named,
           .admissible = possible,
           .sentence = "screw, nut and bearing yield: {stiffness_N_per_m} N/m between motor and table",
 
+          .finding = finding,
           .confused_with = {"backlash", "lead_error"},
           .friction = false};
 }

@@ -1,4 +1,4 @@
-// The screw grows as it warms: the lead rises with the time run.
+// The screw grows from its fixed bearing as it warms: x + e (1 - exp(-t / T)) (x - x_f).
 
 #include <cmath>
 
@@ -8,13 +8,16 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+constexpr double fixed_end_m = -0.075;
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
-  add(sum.slip_m, (q[0] / 600.0 * t.array() * (view.track.position_m.array() + 0.075)).matrix());
+  const auto warmed = 1.0 - (-t.array() / q[1]).exp();
+  add(sum.slip_m, (q[0] * warmed * (view.track.position_m.array() - fixed_end_m)).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_growth", q[0]}};
+  return {{"relative_growth", q[0]}, {"time_constant_s", q[1]}, {"fixed_end_m", fixed_end_m}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -28,8 +31,8 @@ Hypothesis screw_growth() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::position,
-          .parameters = {{"relative_rate_per_s", Kind::amplitude, 1e-7}},
-          .shapes = {{}},
+          .parameters = {{"relative_growth", Kind::amplitude, 1e-7}, {"time_constant_s", Kind::shape, 1e-2, 0.5, 1e4}},
+          .shapes = {{2.0}, {5.0}, {15.0}, {100.0}},
           .apply = apply,
           .named = named,
           .admissible = possible,

@@ -7,7 +7,10 @@ namespace feedtwin::tools::diagnosis {
 
 Vector wave(const Vector& x, double period, double order, double sine, double cosine) {
   const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * order / period * x.array();
-  return (sine * angle.sin() + cosine * angle.cos()).matrix();
+  Vector out = Vector::Zero(x.size());
+  if (sine != 0.0) out += (sine * angle.sin()).matrix();
+  if (cosine != 0.0) out += (cosine * angle.cos()).matrix();
+  return out;
 }
 
 Vector delayed(const Vector& values, double samples) {
@@ -49,10 +52,39 @@ Grid ripple_orders() {
   return grid;
 }
 
-Grid frequencies() {
+Grid frequencies(double low_Hz, double high_Hz) {
   Grid grid;
-  for (int i = 0; i <= 370; ++i) grid.push_back({8.0 + 0.1 * i});
+  for (int i = 0; low_Hz + 0.1 * i <= high_Hz + 1e-9; ++i) grid.push_back({low_Hz + 0.1 * i});
   return grid;
+}
+
+std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz) {
+  return {{"sine_0_N", Kind::amplitude, 0.1},
+          {"cosine_0_N", Kind::amplitude, 0.1},
+          {"sine_1_N", Kind::amplitude, 0.1},
+          {"cosine_1_N", Kind::amplitude, 0.1},
+          {"sine_2_N", Kind::amplitude, 0.1},
+          {"cosine_2_N", Kind::amplitude, 0.1},
+          {"sine_3_N", Kind::amplitude, 0.1},
+          {"cosine_3_N", Kind::amplitude, 0.1},
+          {"frequency_Hz", Kind::shape, 1e-3, low_Hz, high_Hz}};
+}
+
+void add_line(const Track& track, std::span<const double> q, Vector& force_N) {
+  const std::size_t run = std::min<std::size_t>(track.run, 3);
+  if (q[2 * run] == 0.0 && q[2 * run + 1] == 0.0) return;
+  const Vector t = Vector::LinSpaced(track.size, 0.0, static_cast<double>(track.size - 1) * track.sample_s);
+  add(force_N, wave(t, 1.0, q[8], q[2 * run], q[2 * run + 1]));
+}
+
+double line_amplitude(std::span<const double> q) {
+  double square = 0.0, runs = 0.0;
+  for (std::size_t run = 0; run < 4; ++run) {
+    const double own = q[2 * run] * q[2 * run] + q[2 * run + 1] * q[2 * run + 1];
+    square += own;
+    runs += own > 0.0;
+  }
+  return std::sqrt(square / std::max(1.0, runs));
 }
 
 Grid torque_limits() {

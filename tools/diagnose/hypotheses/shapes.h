@@ -20,11 +20,17 @@ namespace feedtwin::tools::diagnosis {
 /// First-order lag of a number of samples.
 [[nodiscard]] Vector lagged(const Vector& values, double samples);
 
+/// A force of one frequency with a phase of its own in each of up to four runs: sine and cosine of each run, frequency.
+[[nodiscard]] std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz);
+void add_line(const Track& track, std::span<const double> q, Vector& force_N);
+/// Root mean square of the runs' amplitudes.
+[[nodiscard]] double line_amplitude(std::span<const double> q);
+
 /// Grids of shape parameters.
 using Grid = std::vector<std::vector<double>>;
 [[nodiscard]] Grid whole_orders(int first, int last);
 [[nodiscard]] Grid ripple_orders();  ///< one and two a revolution, and everything between that is not whole
-[[nodiscard]] Grid frequencies();    ///< 8 to 45 Hz
+[[nodiscard]] Grid frequencies(double low_Hz, double high_Hz);
 [[nodiscard]] Grid torque_limits();
 [[nodiscard]] Grid spots();  ///< places along a stroke and widths
 

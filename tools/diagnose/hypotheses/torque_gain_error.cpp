@@ -27,7 +27,7 @@ Hypothesis torque_gain_error() {
           .component = "drive",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"relative_error", Kind::amplitude, 1e-3, -0.6, 1.0}},
+          .parameters = {{"relative_error", Kind::amplitude, 1e-3, -0.25, 0.25}},
           .shapes = {{}},
           .apply = apply,
           .named = named,

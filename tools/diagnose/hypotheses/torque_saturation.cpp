@@ -28,13 +28,14 @@ Hypothesis torque_saturation() {
           .component = "drive",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"share", Kind::amplitude, 1e-2, 0.0, 1.0}, {"limit_Nm", Kind::shape, 1e-3, 1e-3, 1e4}},
+          .parameters = {{"share", Kind::amplitude, 1e-2, 0.0, 1.3}, {"limit_Nm", Kind::shape, 1e-3, 1e-3, 1e4}},
           .shapes = torque_limits(),
           .apply = apply,
           .named = named,
           .admissible = possible,
           .sentence = "the drive gives no more than {limit_Nm} N m",
 
+          .about_reversals = true,
           .confused_with = {"torque_gain_error"},
           .friction = false};
 }

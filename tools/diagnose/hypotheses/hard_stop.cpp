@@ -1,0 +1,68 @@
+// Something solid in the way: F = k d + c v beyond a place, d the depth, pushing only back.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  const Track& track = view.track;
+  const double towards = q[3];
+  Vector force = Vector::Zero(track.size);
+  for (Index k = 0; k < track.size; ++k) {
+    const double depth = towards * (track.table_position_m[k] - q[2]);
+    if (depth > 0.0) force[k] = towards * std::max(0.0, q[0] * depth + q[1] * towards * track.table_velocity_m_per_s[k]);
+  }
+  add(sum.guide_N, force);
+}
+
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"position_m", q[2]}, {"direction", q[3]}, {"stiffness_N_per_m", q[0]}, {"damping_Ns_per_m", q[1]}};
+}
+
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return q[0] > 1e4;  // softer is a spring
+}
+
+/// Only the ends of the travel can have met something.
+std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs) {
+  double low = 1e300, high = -1e300;
+  for (const auto& run : runs) {
+    low = std::min(low, run.table_position_m.minCoeff());
+    high = std::max(high, run.table_position_m.maxCoeff());
+  }
+  Grid grid;
+  for (const double depth : {5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3}) {
+    grid.push_back({high - depth, 1.0});
+    grid.push_back({low + depth, -1.0});
+  }
+  return grid;
+}
+
+}  // namespace
+
+Hypothesis hard_stop() {
+  return {.id = "hard_stop",
+          .component = "guide",
+          .channel = "force_sensor_N",
+          .where = Where::position,
+          .parameters = {{"stiffness_N_per_m", Kind::amplitude, 1e3, 0.0, 1e8},
+                         {"damping_Ns_per_m", Kind::amplitude, 10.0, 0.0, 1e6},
+                         {"position_m", Kind::shape, 1e-5, -100.0, 100.0},
+                         {"direction", Kind::fixed, 1.0, -1.0, 1.0}},
+          .shapes = {},
+          .apply = apply,
+          .named = named,
+          .admissible = possible,
+          .sentence = "the table runs against something solid at {position_m} m, {stiffness_N_per_m} N/m stiff",
+          .about_reversals = true,
+          .confused_with = {"local_friction", "cable_spring"},
+          .shapes_for = ends_of,
+          .friction = false};
+}
+
+}  // namespace feedtwin::tools::diagnosis

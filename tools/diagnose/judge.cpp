@@ -1,0 +1,104 @@
+#include "tools/diagnose/judge.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+/// The fold of each row: seconds of each run, dealt out in turn; all equations of a moment together.
+std::vector<std::size_t> folds_of(const InverseModel& model, std::size_t folds) {
+  constexpr double stretch_s = 1.0;
+  std::vector<std::size_t> fold(static_cast<std::size_t>(model.rows()));
+  for (const auto& segment : model.segments()) {
+    const double sample_s = model.tracks()[segment.run].sample_s;
+    for (Index i = 0; i < segment.size; ++i) {
+      const double t = static_cast<double>(model.sample_of(segment, i)) * sample_s;
+      fold[static_cast<std::size_t>(segment.start + i)] =
+          (static_cast<std::size_t>(t / stretch_s) + 3 * segment.run) % folds;
+    }
+  }
+  return fold;
+}
+
+/// A limit or a place enters with a kink: a line through it says nothing about far away.
+void freeze_shapes(const Fit& fit, Eigen::MatrixXd& jacobian) {
+  Index column = fit.base_count();
+  for (const auto& effect : fit.model.effects)
+    for (const auto& p : effect.hypothesis->parameters) {
+      if (p.kind == Kind::shape) jacobian.col(column).setZero();
+      if (p.kind != Kind::fixed) ++column;
+    }
+}
+
+/// Where the unknowns go, and what every fold costs, under the estimate that leaves it out; linear about the fit.
+struct LeftOut {
+  std::vector<double> costs;
+  Eigen::MatrixXd steps;  ///< a column a fold
+};
+
+LeftOut left_out(const InverseModel& model, const Fit& fit, const std::vector<std::size_t>& fold, std::size_t folds,
+                 bool shapes_stay) {
+  const Index n = fit.jacobian.cols();
+  std::vector<std::vector<Index>> rows(folds);
+  for (Index k = 0; k < model.rows(); ++k) rows[fold[static_cast<std::size_t>(k)]].push_back(k);
+  Eigen::MatrixXd jacobian = fit.jacobian;
+  if (shapes_stay) freeze_shapes(fit, jacobian);
+  const Eigen::MatrixXd all = jacobian.transpose() * jacobian;
+  LeftOut out{{}, Eigen::MatrixXd(n, static_cast<Index>(folds))};
+  for (std::size_t f = 0; f < folds; ++f) {
+    const Eigen::MatrixXd own = jacobian(rows[f], Eigen::all);
+    const Vector left = fit.white(rows[f]);
+    Eigen::MatrixXd rest = all - own.transpose() * own;
+    for (Index i = 0; i < n; ++i) rest(i, i) += 1e-9 * all(i, i) + 1e-12;
+    const Vector step = rest.ldlt().solve(-(own.transpose() * left));
+    out.costs.push_back((left - own * step).squaredNorm());
+    out.steps.col(static_cast<Index>(f)) = step;
+  }
+  return out;
+}
+
+}  // namespace
+
+double strength(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
+                const Bar& bar) {
+  double strongest = 0.0;
+  for (std::size_t e = 0; e < model.equations().size(); ++e) {
+    const auto& equation = model.equations()[e];
+    double moved = 0.0, left = 0.0, count = 0.0;
+    for (const auto& s : model.segments())
+      for (Index k = s.start; s.equation == e && k < s.start + s.size; ++k) {
+        if (!model.settled(k) && !hypothesis.about_reversals) continue;
+        moved += std::pow(without.residual[k] - with.residual[k], 2);
+        left += with.residual[k] * with.residual[k];
+        count += 1.0;
+      }
+    if (count == 0.0) continue;
+    const double floor = equation.slip ? bar.slip_m : equation.power ? bar.power_W : bar.force_N;
+    strongest = std::max(strongest, std::sqrt(moved / count) / std::max(floor, std::sqrt(left / count)));
+  }
+  return strongest;
+}
+
+std::vector<double> gains_by_fold(const InverseModel& model, const Fit& with, const Fit& without, std::size_t folds) {
+  const auto fold = folds_of(model, folds);
+  auto gains = left_out(model, without, fold, folds, true).costs;
+  const auto costs = left_out(model, with, fold, folds, true).costs;
+  for (std::size_t f = 0; f < folds; ++f) gains[f] -= costs[f];
+  return gains;
+}
+
+Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit) {
+  constexpr std::size_t groups = 16;
+  constexpr double widest = 8.0;  // beyond it the line that the jackknife draws is what is wrong
+  const Eigen::MatrixXd steps = left_out(model, fit, folds_of(model, groups), groups, false).steps;
+  const Vector centre = steps.rowwise().mean();
+  const Vector variance =
+      (steps.colwise() - centre).rowwise().squaredNorm() * (static_cast<double>(groups - 1) / static_cast<double>(groups));
+  const Vector widening =
+      variance.cwiseQuotient(fit.covariance.diagonal().cwiseMax(1e-300)).cwiseMax(1.0).cwiseMin(widest * widest).cwiseSqrt();
+  return widening.asDiagonal() * fit.covariance * widening.asDiagonal();
+}
+
+}  // namespace feedtwin::tools::diagnosis

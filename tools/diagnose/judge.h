@@ -1,0 +1,23 @@
+#pragma once
+// What a hypothesis is worth: how strong it is in the units of the channels, and whether it holds on time that it was
+// not fitted to.
+
+#include "tools/diagnose/search.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// How much the fits differ, rms, over the rms of what the better one leaves over: the largest of the equations that the
+/// difference touches. Force equations count where the axis has settled, and about reversals for effects that live there.
+[[nodiscard]] double strength(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
+                              const Bar& bar);
+
+/// Fall of the cost of each fold that the other folds' estimate of everything brings, with the effect against without.
+/// Both fits under the same whitening.
+[[nodiscard]] std::vector<double> gains_by_fold(const InverseModel& model, const Fit& with, const Fit& without,
+                                                std::size_t folds);
+
+/// Covariance of the unknowns, widened to what a delete-a-group jackknife over seconds finds: the laws are not exact and
+/// the noise is not of one colour, so that rows say less than they seem to.
+[[nodiscard]] Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit);
+
+}  // namespace feedtwin::tools::diagnosis
