@@ -119,10 +119,15 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
     bool better = false;
     Candidate next;
     double cost = best.cost;
-    for (const double damping : {1e-12, 1e-3, 3e-2, 0.3, 3.0}) {  // Levenberg and Marquardt
+    struct Try {
+      double damping, length;
+    };
+    // shorter along the same line first, since steps are bounded; then as Levenberg and Marquardt
+    for (const auto [damping, length] :
+         {Try{0.0, 1.0}, {0.0, 0.5}, {0.0, 0.2}, {1e-3, 1.0}, {3e-2, 1.0}, {0.3, 1.0}, {3.0, 1.0}}) {
       Eigen::MatrixXd damped = information;
-      damped.diagonal() += damping * information.diagonal() + Vector::Constant(slope.size(), 1e-12);
-      next = moved(best.model, damped.ldlt().solve(slope));
+      damped.diagonal() += (damping + 1e-12) * information.diagonal() + Vector::Constant(slope.size(), 1e-12);
+      next = moved(best.model, length * damped.ldlt().solve(slope));
       cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
       better = cost < best.cost;
       if (better) break;
