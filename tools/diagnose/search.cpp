@@ -171,7 +171,7 @@ class Search {
       const Fit fit = fitter_.fit(start, whitening_, iterations);
       const Active& other = fit.model.effects.back();
       const bool nuisance = rival->finding != nullptr && !rival->finding(other.q);
-      if (nuisance || !possible(other, fit.model.axis)) continue;
+      if (nuisance || !possible(other, fit.model.axis) || !judged(fitter_, fit, less, *rival, bar_).enough) continue;
       const double more = bar_.per_parameter *
                           (static_cast<double>(freedom(*rival)) - static_cast<double>(freedom(*found.effect.hypothesis)));
       const double worse = fit.cost + more - fit_.cost;
