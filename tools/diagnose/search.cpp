@@ -44,8 +44,9 @@ Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const 
   const bool doubtful = hypothesis.absorbed && v.surprise < -bar.against_nominal;
   const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
   const bool strong = v.strength > least && v.gain > needed;
-  const bool impossible_otherwise = hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
-                                    (hypothesis.number_of_the_model || v.strength > bar.absorbed_strength);
+  const bool impossible_otherwise =
+      hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
+      (v.strength > bar.absorbed_strength || (hypothesis.number_of_the_model && v.surprise > bar.number_gain));
   v.enough = strong || impossible_otherwise;
   return v;
 }
