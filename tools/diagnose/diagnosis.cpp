@@ -229,14 +229,17 @@ bool beyond_the_catalogue(const InverseModel& model, const SearchResult& found, 
   return after.share > least_share && after.structured_N() > least_N && structure > unexplained * (structure + explained);
 }
 
+bool rests_on_force(const Hypothesis& h) {
+  return h.channel != "scale_position_m" && h.channel != "power_W";
+}
+
 /// Takes back the names that rest on the force; what is left of the model.
 Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
-  const auto on_force = [](const Hypothesis& h) { return h.channel != "scale_position_m" && h.channel != "power_W"; };
-  std::erase_if(result.effects, [&](const NamedEffect& e) { return on_force(*e.hypothesis); });
+  std::erase_if(result.effects, [&](const NamedEffect& e) { return rests_on_force(*e.hypothesis); });
   result.verdict = "unknown";
   Candidate told = found.recalibrated.model;
   for (const auto& active : final.effects)
-    if (!on_force(*active.hypothesis)) told.effects.push_back(active);
+    if (!rests_on_force(*active.hypothesis)) told.effects.push_back(active);
   return told;
 }
 
@@ -261,7 +264,10 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   keep_confirmed(forward, fitter, found, fit, progress);
   const double inflation = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
   Eigen::MatrixXd covariance = inflation * robust_covariance(model, fit);
-  const bool unknown = beyond_the_catalogue(model, found, fit.model, progress);
+  // a name that every unseen fold bears out stays, whatever else is left over
+  const bool certain = std::ranges::any_of(
+      found.found, [](const Found& one) { return one.held_everywhere && rests_on_force(*one.effect.hypothesis); });
+  const bool unknown = beyond_the_catalogue(model, found, fit.model, progress) && !certain;
   if (!unknown && !fit.model.effects.empty()) {
     progress("polishing the numbers by closed-loop simulation");
     auto polished = polish(forward, fitter, fit.model);

@@ -202,6 +202,7 @@ class Search {
     const std::size_t count = fit_.model.effects.size();
     std::vector<Fit> less;
     std::vector<Verdict> verdicts;
+    std::vector<bool> everywhere(count);
     for (std::size_t i = 0; i < count; ++i) {
       less.push_back(fitter_.fit(without(fit_.model, i), whitening_, iterations));
       verdicts.push_back(judged(fitter_, fit_, less[i], *fit_.model.effects[i].hypothesis, bar_));
@@ -224,6 +225,7 @@ class Search {
       progress_(fmt::format("{}: gain {:.0f}, on unseen folds {:.0f} in {} of {}, surprise {:.0f}, strength {:.2f}",
                             effect.hypothesis->id, verdict.gain, on_unseen, folds, bar_.folds, verdict.surprise,
                             verdict.strength));
+      everywhere[i] = folds == bar_.folds && on_unseen > 0.8 * verdict.gain;
       const bool by_surprise = verdict.surprise > 0.5 * verdict.gain;
       const bool nearly_all = 4 * folds >= 3 * bar_.folds;
       const bool holds = by_surprise || nearly_all || (on_unseen > 0.4 * verdict.gain && folds >= bar_.folds_that_gain);
@@ -238,7 +240,7 @@ class Search {
       for (const auto& score : earlier_[i])
         if (score.hypothesis == effect.hypothesis) touched = std::max(1.0, score.touched);
       const double share = std::clamp(verdicts[i].gain / (verdicts[i].gain + std::min(touched, fit_.cost)), 0.0, 1.0);
-      Found found{effect, verdicts[i].gain, share, verdicts[i].strength, chances_[i], {}};
+      Found found{effect, verdicts[i].gain, share, verdicts[i].strength, chances_[i], {}, everywhere[i]};
       if (exchange(i, less[i], verdicts[i].gain, found)) return false;
       result.found.push_back(std::move(found));
     }

@@ -36,6 +36,7 @@ struct Found {
   double strength = 0.0;  ///< what is left over without it beyond what is left over with it, as a ratio of rms
   double p_false_alarm = 1.0;
   std::vector<const Hypothesis*> rivals;  ///< fit as well in its place
+  bool held_everywhere = false;           ///< on every unseen fold, with nearly all of its gain
 };
 
 struct SearchResult {
