@@ -233,6 +233,24 @@ bool rests_on_force(const Hypothesis& h) {
   return h.channel != "scale_position_m" && h.channel != "power_W";
 }
 
+/// The axis whose closed loop comes closest to the runs of the fit, all channels alike; the first where none is closer.
+plant::AxisParameters closest(const ForwardModel& forward, std::vector<plant::AxisParameters> axes) {
+  constexpr double clearly = 0.01;
+  const auto far_off = [&forward](const plant::AxisParameters& axis) {
+    double sum = 0.0;
+    const Nrmse all = forward.nrmse(axis);
+    for (const auto& [channel, error] : all) sum += std::log(std::max(1e-12, error));
+    return sum / static_cast<double>(std::max<std::size_t>(1, all.size()));
+  };
+  std::size_t best = 0;
+  double least = far_off(axes[0]) - clearly;
+  for (std::size_t i = 1; i < axes.size(); ++i) {
+    const double error = far_off(axes[i]);
+    if (error < least) best = i, least = error;
+  }
+  return axes[best];
+}
+
 /// Takes back the names that rest on the force; what is left of the model.
 Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
   std::erase_if(result.effects, [&](const NamedEffect& e) { return rests_on_force(*e.hypothesis); });
@@ -268,6 +286,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   const bool certain = std::ranges::any_of(
       found.found, [](const Found& one) { return one.held_everywhere && rests_on_force(*one.effect.hypothesis); });
   const bool unknown = beyond_the_catalogue(model, found, fit.model, progress) && !certain;
+  const Candidate unpolished = fit.model;
   if (!unknown && !fit.model.effects.empty()) {
     progress("polishing the numbers by closed-loop simulation");
     auto polished = polish(forward, fitter, fit.model);
@@ -278,7 +297,10 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   for (const auto& one : found.found)
     if (worth_naming(one.effect)) result.effects.push_back(named_effect(one, fit, covariance, model));
   result.recalibrated = recalibrated(fitter, fit, covariance);
-  result.updated = extended(fit.model, worth_naming);
+  std::vector<plant::AxisParameters> ways{extended(fit.model, worth_naming), extended(fit.model),
+                                          extended(unpolished, worth_naming)};
+  if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model));
+  result.updated = closest(forward, std::move(ways));
   result.verdict = verdict_of(result);
   result.detection_limit_N = 0.2 * std::max(Bar{}.force_N, found.whitening.residual_rms(0));
 
