@@ -65,6 +65,7 @@ class Projected {
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 3 };
 
   Projected(std::span<const InverseLugre::Run> runs, std::size_t samples) : runs_(runs), samples_(samples) {}
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that TinySolver asks for
   [[nodiscard]] int NumResiduals() const { return static_cast<int>(samples_); }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
