@@ -19,8 +19,9 @@ namespace {
 
 constexpr double z90 = 1.645;
 constexpr double smallest_share_held_out = 0.35;
-/// An effect that makes less than this of a channel's error on unseen runs is not named. On practice and challenge cases
-/// right names made 1.048 and more, a third of the wrong ones less than 1.02.
+/// Without an effect the closed loop must be this many times as far off in some channel on the runs of the fit, or it is not
+/// named. On practice and challenge cases, seen on held-out runs, right names made 1.048 and more, a third of the wrong ones
+/// less than 1.02.
 constexpr double least_error_ratio = 1.02;
 constexpr double least_gain_of_a_table = 0.98;  // closed loop, runs of the fit: else the table stays out of the model
 constexpr double smallest_remainder_N = 1.0;
