@@ -234,8 +234,9 @@ bool rests_on_force(const Hypothesis& h) {
   return h.channel != "scale_position_m" && h.channel != "power_W";
 }
 
-/// The axis whose closed loop comes closest to the runs of the fit, all channels alike; the first where none is closer.
-plant::AxisParameters closest(const ForwardModel& forward, std::vector<plant::AxisParameters> axes) {
+/// Which axis's closed loop comes closest to the runs of the fit, all channels alike; the first where none is clearly
+/// closer.
+std::size_t closest(const ForwardModel& forward, const std::vector<plant::AxisParameters>& axes) {
   constexpr double clearly = 0.01;
   const auto far_off = [&forward](const plant::AxisParameters& axis) {
     double sum = 0.0;
@@ -249,7 +250,7 @@ plant::AxisParameters closest(const ForwardModel& forward, std::vector<plant::Ax
     const double error = far_off(axes[i]);
     if (error < least) best = i, least = error;
   }
-  return axes[best];
+  return best;
 }
 
 /// Takes back the names that rest on the force; what is left of the model.
@@ -287,21 +288,21 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   const bool certain = std::ranges::any_of(
       found.found, [](const Found& one) { return one.held_everywhere && rests_on_force(*one.effect.hypothesis); });
   const bool unknown = beyond_the_catalogue(model, found, fit.model, progress) && !certain;
-  const Candidate unpolished = fit.model;
   if (!unknown && !fit.model.effects.empty()) {
     progress("polishing the numbers by closed-loop simulation");
     auto polished = polish(forward, fitter, fit.model);
-    fit.model = polished.model;
-    covariance = polished.covariance;
+    if (closest(forward, {extended(polished.model, worth_naming), extended(fit.model, worth_naming)}) == 0) {
+      fit.model = polished.model;
+      covariance = polished.covariance;
+    }
   }
 
   for (const auto& one : found.found)
     if (worth_naming(one.effect)) result.effects.push_back(named_effect(one, fit, covariance, model));
   result.recalibrated = recalibrated(fitter, fit, covariance);
-  std::vector<plant::AxisParameters> ways{extended(fit.model, worth_naming), extended(fit.model),
-                                          extended(unpolished, worth_naming)};
+  std::vector<plant::AxisParameters> ways{extended(fit.model, worth_naming), extended(fit.model)};
   if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model));
-  result.updated = closest(forward, std::move(ways));
+  result.updated = ways[closest(forward, ways)];
   result.verdict = verdict_of(result);
   result.detection_limit_N = 0.2 * std::max(Bar{}.force_N, found.whitening.residual_rms(0));
 
