@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/effects/registry.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
@@ -133,6 +135,24 @@ Learned learn_remainder(const InverseModel& model, const InverseModel& others, c
     if (table.share_held_out > best.share_held_out) best = std::move(table);
   }
   return best;
+}
+
+void extend(plant::AxisParameters& axis, const Learned& learned) {
+  const auto* entry = plant::find_effect("learned_residual");
+  if (entry == nullptr) return;
+  auto setting = plant::preset_of(*entry);
+  const std::string_view over = learned.axis == Where::position   ? "position_m"
+                                : learned.axis == Where::velocity ? "velocity_m_per_s"
+                                                                  : "since_reversal_s";
+  std::size_t list = 0;
+  for (const auto& parameter : entry->parameters) {
+    if (!parameter.list) continue;
+    auto& values = setting.lists.at(list++);
+    if (parameter.name == over) values = learned.points;
+    if (parameter.name == "force_pos_N") values = learned.force_pos_N;
+    if (parameter.name == "force_neg_N") values = learned.force_neg_N;
+  }
+  axis.effects.push_back(std::move(setting));
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -19,4 +19,7 @@ struct Learned {
 /// The axis that explains most; `others` are the held-out runs.
 [[nodiscard]] Learned learn_remainder(const InverseModel& model, const InverseModel& others, const Candidate& at);
 
+/// The plant's own term for it.
+void extend(plant::AxisParameters& axis, const Learned& learned);
+
 }  // namespace feedtwin::tools::diagnosis

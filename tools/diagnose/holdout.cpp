@@ -1,0 +1,28 @@
+#include "tools/diagnose/holdout.h"
+
+namespace feedtwin::tools::diagnosis {
+
+std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Candidate& nominal,
+                                              const Candidate& recalibrated_only, const Candidate& final) {
+  std::map<std::string, ChannelFigures> out;
+  const auto before = nrmse(runs, nominal), middle = nrmse(runs, recalibrated_only), after = nrmse(runs, final);
+  const auto floor = noise_floor(runs, final);
+  for (const auto& [channel, value] : before) {
+    const auto at = [&channel](const Nrmse& all) { return all.contains(channel) ? all.at(channel) : 0.0; };
+    out[channel] = {value, at(middle), at(after), at(floor)};
+  }
+  return out;
+}
+
+std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const plant::AxisParameters& nominal,
+                                              const plant::AxisParameters& recalibrated_only,
+                                              const plant::AxisParameters& final) {
+  std::map<std::string, ChannelFigures> out;
+  const auto before = runs.nrmse(nominal), middle = runs.nrmse(recalibrated_only), after = runs.nrmse(final);
+  const auto floor = runs.noise_floor(final);
+  for (const auto& [channel, value] : before)
+    out[channel] = {value, middle.at(channel), after.at(channel), floor.at(channel)};
+  return out;
+}
+
+}  // namespace feedtwin::tools::diagnosis

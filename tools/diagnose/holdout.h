@@ -1,0 +1,18 @@
+#pragma once
+// Figures on runs that were not fitted, before and after.
+
+#include "tools/diagnose/diagnosis.h"
+#include "tools/diagnose/forward/forward_model.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// By the inverse model, through its low pass.
+[[nodiscard]] std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Candidate& nominal,
+                                                            const Candidate& recalibrated_only, const Candidate& final);
+
+/// By closed-loop simulation.
+[[nodiscard]] std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const plant::AxisParameters& nominal,
+                                                            const plant::AxisParameters& recalibrated_only,
+                                                            const plant::AxisParameters& final);
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,111 @@
+#include "tools/diagnose/reported.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/sentence.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double z90 = 1.645;
+
+/// Where in the list of unknowns an effect's working parameters stand; -1 for those that are not fitted.
+std::vector<Index> places_of(const Fit& fit, std::size_t effect) {
+  Index at = fit.base_count();
+  std::vector<Index> places;
+  for (std::size_t e = 0; e <= effect; ++e) {
+    const auto& active = fit.model.effects[e];
+    places.assign(active.q.size(), -1);
+    for (std::size_t j = 0; j < active.q.size(); ++j)
+      if (active.hypothesis->parameters[j].kind != Kind::fixed) places[j] = at++;
+  }
+  return places;
+}
+
+/// Intervals of what is reported, from the covariance of what was fitted.
+std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Eigen::MatrixXd& covariance,
+                                                        std::size_t effect) {
+  const auto& active = fit.model.effects[effect];
+  const auto& axis = fit.model.axis;
+  const auto places = places_of(fit, effect);
+  const auto now = active.hypothesis->named(active.q, axis);
+  std::vector<std::pair<std::string, Estimate>> out;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    Vector slope = Vector::Zero(covariance.rows());
+    for (std::size_t j = 0; j < active.q.size(); ++j) {
+      if (places[j] < 0) continue;
+      const double sigma = std::sqrt(std::max(0.0, covariance(places[j], places[j])));
+      const double step = 1e-3 * std::max(sigma, 1e-6 * std::abs(active.q[j])) + 1e-300;
+      auto near = active.q;
+      near[j] += step;
+      slope[places[j]] = (active.hypothesis->named(near, axis)[i].value - now[i].value) / step;
+    }
+    const double sigma = std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
+    if (sigma > 1e3 * (std::abs(now[i].value) + 1e-9)) continue;  // of a channel that is not there
+    out.push_back({now[i].name, {now[i].value, now[i].value - z90 * sigma, now[i].value + z90 * sigma}});
+  }
+  return out;
+}
+
+std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const InverseModel& model) {
+  double low = 1e300, high = -1e300;
+  const auto cover = [&](double a, double b) { low = std::min(low, a), high = std::max(high, b); };
+  for (const auto& track : model.tracks()) {
+    switch (effect.hypothesis->where) {
+      case Where::position:
+        cover(track.position_m.minCoeff(), track.position_m.maxCoeff());
+        break;
+      case Where::velocity:
+        cover(track.centred_m_per_s.minCoeff(), track.centred_m_per_s.maxCoeff());
+        break;
+      case Where::reversal:
+        cover(0.0, 0.05);
+        break;
+      default:
+        cover(0.0, static_cast<double>(track.size) * track.sample_s);
+    }
+  }
+  for (const auto& [name, estimate] : effect.parameters)
+    if (name == "cycles_per_rev" || name == "frequency_Hz") return {{estimate.value, estimate.value}};
+  return {{low, high}};
+}
+
+}  // namespace
+
+bool worth_naming(const Active& active) {
+  return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
+}
+
+std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
+  std::vector<Recalibrated> out;
+  for (std::size_t i = 0; i < fitter.base().size(); ++i) {
+    const auto& parameter = fitter.base()[i];
+    const double was = value_of(parameter, fitter.nominal()), now = value_of(parameter, fit.model.axis);
+    const auto at = static_cast<Index>(i);
+    const double in_tolerances = std::sqrt(std::max(0.0, covariance(at, at)));
+    const double sigma = in_tolerances * fitter.tolerance(i);
+    const bool told_by_data = in_tolerances < 0.5;
+    if (told_by_data && std::abs(now - was) > 3.0 * sigma && std::abs(now - was) > 2e-3 * std::abs(was))
+      out.push_back({std::string(parameter.entry->key), was, {now, now - z90 * sigma, now + z90 * sigma}});
+  }
+  return out;
+}
+
+NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance, const InverseModel& model) {
+  NamedEffect effect;
+  effect.hypothesis = one.effect.hypothesis;
+  for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
+    if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, covariance, e);
+  effect.share = one.share;
+  effect.p_false_alarm = one.p_false_alarm;
+  effect.intervals = acts_in(effect, model);
+  for (const auto* rival : one.rivals) effect.alternatives.emplace_back(rival->id);
+  const auto beside = std::string(effect.hypothesis->always_beside);
+  if (!beside.empty() && std::ranges::find(effect.alternatives, beside) == effect.alternatives.end())
+    effect.alternatives.push_back(beside);
+  effect.sentence = sentence_of(effect);
+  return effect;
+}
+
+}  // namespace feedtwin::tools::diagnosis

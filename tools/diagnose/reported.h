@@ -1,0 +1,19 @@
+#pragma once
+// What is told of an effect and of a wrong number: value, interval, where it acts, what else it could be.
+
+#include "tools/diagnose/diagnosis.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
+[[nodiscard]] bool worth_naming(const Active& active);
+
+/// @param covariance of the base parameters, in tolerances, and then of the effects' working parameters
+[[nodiscard]] NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance,
+                                       const InverseModel& model);
+
+/// The nominal numbers that the data move beyond their own uncertainty.
+[[nodiscard]] std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit,
+                                                     const Eigen::MatrixXd& covariance);
+
+}  // namespace feedtwin::tools::diagnosis

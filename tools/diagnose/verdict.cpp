@@ -1,0 +1,40 @@
+#include "tools/diagnose/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/structure.h"
+
+namespace feedtwin::tools::diagnosis {
+
+bool anything_missing(const Diagnosis& result) {
+  const auto is_physics = [](const NamedEffect& e) { return !e.hypothesis->number_of_the_model; };
+  return !result.setup.empty() || std::ranges::any_of(result.effects, is_physics);
+}
+
+const char* verdict_of(const Diagnosis& result) {
+  const auto open = [](const NamedEffect& e) { return !e.alternatives.empty() && !e.hypothesis->number_of_the_model; };
+  if (std::ranges::any_of(result.effects, open)) return "named-set";
+  if (anything_missing(result)) return "named";
+  return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
+}
+
+bool beyond_the_catalogue(const InverseModel& model, const SearchResult& found, const Candidate& final,
+                          const std::function<void(std::string_view)>& progress) {
+  constexpr double least_share = 0.3, least_N = 0.7, unexplained = 0.2;
+  const Structure before = remaining_structure(model, found.recalibrated.model);
+  const Structure after = remaining_structure(model, final);
+  const double structure = std::pow(after.structured_N(), 2);
+  const double explained = std::max(0.0, before.remainder_N * before.remainder_N - after.remainder_N * after.remainder_N);
+  progress(fmt::format("structure: {:.2g} N of {:.2g} N left over; before naming {:.2g} N of {:.2g} N", after.structured_N(),
+                       after.remainder_N, before.structured_N(), before.remainder_N));
+  return after.share > least_share && after.structured_N() > least_N && structure > unexplained * (structure + explained);
+}
+
+bool rests_on_force(const Hypothesis& h) {
+  return h.channel != "scale_position_m" && h.channel != "power_W";
+}
+
+}  // namespace feedtwin::tools::diagnosis
