@@ -27,6 +27,8 @@ struct AxisRequest {
   std::int64_t watchdog_ns = 0;  ///< the controller's own watchdog time; 0: the configuration's
   bool enable = false;
   bool quick_stop = false;
+  double brake_m_per_s2 = 0.0;   ///< in a quick stop: slow down along this ramp; 0: as fast as the torque brakes
+  double brake_limit_Nm = -1.0;  ///< in a quick stop: the most torque; negative: rated torque
   bool fault_reset = false;      ///< a rising edge clears a watchdog fault
   std::uint32_t superseded = 0;  ///< requests that came since the last tick and that this one replaced
   std::int64_t reply_ns = -1;  ///< from the controller's trigger (SYNC, poll) to the reply's leaving; negative: not measured
@@ -54,6 +56,7 @@ enum class DriveState : std::uint8_t { disabled, enabled, quick_stop, fault };
 
 /// One axis at the end of a tick.
 struct AxisReport {
+  std::uint64_t ticks_done = 0;  ///< when it was so; a recording's row of this number begins with it
   std::int64_t encoder_counts = 0;
   double velocity_m_per_s = 0.0;
   double torque_Nm = 0.0;

@@ -14,6 +14,7 @@ namespace feedtwin::io {
 struct PortContext {
   int axes = 1;
   double tick_s = 1e-3;
+  bool lockstep = false;  ///< a port steps the plant: each tick waits for it
   struct Axis {
     double rated_torque_Nm = 1.27;
     double lead_m = 0.005;

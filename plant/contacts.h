@@ -33,6 +33,12 @@ struct ContactsStep {
   Real screw_viscous_Ns_per_m{}, guide_viscous_Ns_per_m{};  ///< unscaled, in the direction of motion
 };
 
+/// Both contacts at an instant.
+template <class Real>
+struct ContactForces {
+  Real screw_N{}, guide_N{};
+};
+
 /// How the axis moves in a sub-step.
 template <class Real>
 struct Sliding {
@@ -59,6 +65,16 @@ struct Contacts {
 
   [[nodiscard]] Real stiffness_force_N(Real screw_bristle_m, Real guide_bristle_m) const noexcept {
     return screw.bristle.stiffness_N_per_m * screw_bristle_m + guide.bristle.stiffness_N_per_m * guide_bristle_m;
+  }
+
+  /// What they resist with, in the direction of motion.
+  [[nodiscard]] ContactForces<Real> now(Real velocity_m_per_s, Real screw_bristle_m, Real guide_bristle_m,
+                                        const FrictionScale<Real>& scale) const noexcept {
+    const auto positive = velocity_m_per_s > 0.0;
+    return {lugre_force_N<Real>(screw.bristle, side_in_force(screw, positive, scale.screw_sliding, scale.screw_viscous),
+                                velocity_m_per_s, screw_bristle_m),
+            lugre_force_N<Real>(guide.bristle, side_in_force(guide, positive, scale.guide_sliding, scale.guide_viscous),
+                                velocity_m_per_s, guide_bristle_m)};
   }
 
   [[nodiscard]] ContactsStep<Real> step(const Sliding<Real>& m, Real screw_bristle_m, Real guide_bristle_m,
@@ -93,15 +109,27 @@ struct Contacts<double> {
     return both.bristle.stiffness_N_per_m[0] * screw_bristle_m + both.bristle.stiffness_N_per_m[1] * guide_bristle_m;
   }
 
-  [[nodiscard]] ContactsStep<double> step(const Sliding<double>& m, double screw_bristle_m, double guide_bristle_m,
-                                          const FrictionScale<double>& scale) const noexcept {
-    const bool positive = m.sign > 0.0;
+  [[nodiscard]] LugreSide<Pair> side_in_force(bool positive, const FrictionScale<double>& scale) const noexcept {
     LugreSide<Pair> side = positive ? both.pos : both.neg;
-    const Pair viscous = side.viscous_Ns_per_m;
     const Pair sliding = {scale.screw_sliding, scale.guide_sliding};
     side.coulomb_N *= sliding;
     side.stribeck_rise_N *= sliding;
     side.viscous_Ns_per_m *= Pair{scale.screw_viscous, scale.guide_viscous};
+    return side;
+  }
+
+  [[nodiscard]] ContactForces<double> now(double velocity_m_per_s, double screw_bristle_m, double guide_bristle_m,
+                                          const FrictionScale<double>& scale) const noexcept {
+    const auto force_N = lugre_force_N<Pair>(both.bristle, side_in_force(velocity_m_per_s > 0.0, scale),
+                                             Pair{} + velocity_m_per_s, Pair{screw_bristle_m, guide_bristle_m});
+    return {force_N[0], force_N[1]};
+  }
+
+  [[nodiscard]] ContactsStep<double> step(const Sliding<double>& m, double screw_bristle_m, double guide_bristle_m,
+                                          const FrictionScale<double>& scale) const noexcept {
+    const bool positive = m.sign > 0.0;
+    const Pair viscous = (positive ? both.pos : both.neg).viscous_Ns_per_m;
+    const LugreSide<Pair> side = side_in_force(positive, scale);
     const auto p = lugre_step<Pair>(both.bristle, side, Pair{} + m.sign, Pair{} + m.speed_m_per_s,
                                     Pair{screw_bristle_m, guide_bristle_m}, Pair{} + m.h_s, Pair{} + m.per_h_Hz);
     return {p.force_N[0],

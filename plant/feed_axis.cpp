@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "plant/force_sensors.h"
+
 namespace feedtwin::plant {
 
 namespace {
@@ -159,28 +161,13 @@ ForceSignals FeedAxis::true_forces(const Drive& drive) const noexcept {
   }
   const bool hanging = chain_ && chain_->has_table();
   const double v = state_.velocity_m_per_s;
-  const bool positive = v > 0.0;
-  const auto& both = driven_.contacts.both;
-  LugreSide<Doubles<2>> side = positive ? both.pos : both.neg;
-  side.coulomb_N *= Doubles<2>{extra.scale.screw_sliding, extra.scale.guide_sliding};
-  side.stribeck_rise_N *= Doubles<2>{extra.scale.screw_sliding, extra.scale.guide_sliding};
-  side.viscous_Ns_per_m *= Doubles<2>{extra.scale.screw_viscous, extra.scale.guide_viscous};
-  const Doubles<2> friction = lugre_force_N<Doubles<2>>(both.bristle, side, Doubles<2>{} + v,
-                                                        Doubles<2>{state_.screw_bristle_m, state_.guide_bristle_m});
+  const auto friction = driven_.contacts.now(v, state_.screw_bristle_m, state_.guide_bristle_m, extra.scale);
   const double stop_N = end_stop_load<double>(driven_, state_.position_m, v, 0.0).force_N;
-  const double on_table_N =
-      hanging ? chain_->table().force_N(state_.position_m, v) : friction[1] + stop_N + extra.table_N + drive.cutting_force_N;
-  double acceleration = 0.0;  // at rest the motor's Coulomb friction holds
-  if (v != 0.0) {
-    const double coulomb = positive ? driven_.coulomb_pos_N : -driven_.coulomb_neg_N;
-    const double damping = positive ? driven_.damping_pos_Ns_per_m : driven_.damping_neg_Ns_per_m;
-    acceleration = (torque_Nm * driven_.transmission_rad_per_m - extra.motor_N - coulomb - damping * v - friction[0] -
-                    extra.screw_N - on_table_N) /
-                   driven_.mass_kg;
-  }
-  const double table_N = on_table_N + driven_.table_mass_kg * acceleration;
-  const double screw_N = driven_.screw_mass_kg * acceleration + friction[0] + extra.screw_N + table_N;
-  return {screw_N / driven_.transmission_rad_per_m, table_N};
+  const double on_table_N = hanging ? chain_->table().force_N(state_.position_m, v)
+                                    : friction.guide_N + stop_N + extra.table_N + drive.cutting_force_N;
+  const auto sensed = sensed_forces<double>(driven_, v, torque_Nm * driven_.transmission_rad_per_m - extra.motor_N,
+                                            friction.screw_N + extra.screw_N, on_table_N);
+  return {sensed.torque_sensor_Nm, sensed.force_sensor_N};
 }
 
 AxisEnergy FeedAxis::energy() const noexcept {

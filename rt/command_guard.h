@@ -33,7 +33,8 @@ struct GuardCounters {
 /// disabled -> enabled on a request with `enable`; enabled -> quick_stop on `quick_stop`, back when it is taken away;
 /// enabled, quick_stop -> fault when the newest request is older than the watchdog time; fault -> disabled when a new
 /// request raises `fault_reset` or takes `enable` away and gives it again, or when a controller that has started afresh
-/// gives it at once. Torque acts in `enabled` only.
+/// gives it at once. The controller's torque acts in `enabled` only; in `quick_stop`
+/// the drive brakes (quick_stop.h).
 class CommandGuard {
  public:
   explicit CommandGuard(const GuardLimits& limits) noexcept : limits_(limits) {}
@@ -49,6 +50,7 @@ class CommandGuard {
   [[nodiscard]] Decision decide(const io::AxisRequest& request, bool fresh, std::int64_t now_ns) noexcept FEEDTWIN_REALTIME;
 
   [[nodiscard]] io::DriveState state() const noexcept { return state_; }
+  [[nodiscard]] const io::AxisRequest& in_force() const noexcept FEEDTWIN_REALTIME { return in_force_; }
   [[nodiscard]] std::uint32_t sequence() const noexcept { return in_force_.sequence; }
   [[nodiscard]] const GuardCounters& counters() const noexcept { return counters_; }
 

@@ -9,7 +9,7 @@ std::string_view meaning(EventKind kind) noexcept {
     case EventKind::disabled:
       return "drive disabled by the controller";
     case EventKind::quick_stop:
-      return "quick stop: torque to zero";
+      return "quick stop: the drive brakes";
     case EventKind::watchdog:
       return "watchdog: no new command for {:.1f} ms, torque to zero";
     case EventKind::fault_cleared:

@@ -22,6 +22,7 @@ PlantLoop::PlantLoop(std::unique_ptr<SteppedPlant> own, SteppedPlant* plant, io:
       listening_(std::move(listening)),
       clock_(clock),
       settings_(settings),
+      quick_stops_(plant_.axes()),
       requests_(plant_.axes()),
       torques_Nm_(plant_.axes()),
       reports_(plant_.axes()),
@@ -82,7 +83,12 @@ void PlantLoop::tick(const TickStart& start) noexcept {
 
 void PlantLoop::command_axis(std::size_t i, bool fresh, std::int64_t now_ns) noexcept {
   const plant::FeedAxis& axis = plant_.axis(i);
-  const CommandGuard::Decision decision = guards_[i].decide(requests_[i], fresh, now_ns);
+  CommandGuard::Decision decision = guards_[i].decide(requests_[i], fresh, now_ns);
+  if (guards_[i].state() == io::DriveState::quick_stop) {
+    decision.torque_Nm = quick_stops_[i].torque_Nm(axis, guards_[i].in_force(), settings_.tick_s);
+  } else {
+    quick_stops_[i].idle();
+  }
   if (fresh && decision.age_ns >= 0) stats_->input_age.record(decision.age_ns);
   if (fresh && requests_[i].reply_ns >= 0) stats_->reply.record(requests_[i].reply_ns);
   if (decision.event) note(*decision.event, static_cast<std::int32_t>(i), decision.event_value);
@@ -110,6 +116,7 @@ void PlantLoop::command_axis(std::size_t i, bool fresh, std::int64_t now_ns) noe
 void PlantLoop::report_axis(std::size_t i) noexcept {
   const plant::AxisSignals& signals = plant_.axis(i).signals();
   io::AxisReport& report = reports_[i];
+  report.ticks_done = stats_->ticks + 1;
   report.encoder_counts = signals.encoder_counts;
   report.velocity_m_per_s = signals.velocity_m_per_s;
   report.torque_Nm = signals.torque_Nm;

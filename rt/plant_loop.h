@@ -10,6 +10,7 @@
 #include "plant/feed_axis.h"
 #include "rt/command_guard.h"
 #include "rt/event.h"
+#include "rt/quick_stop.h"
 #include "rt/spsc_ring.h"
 #include "rt/stepped_plant.h"
 #include "rt/tick_clock.h"
@@ -70,6 +71,7 @@ class PlantLoop {
   TickClock& clock_;
   LoopSettings settings_;
   std::vector<CommandGuard> guards_;
+  std::vector<QuickStop> quick_stops_;
   std::vector<io::AxisRequest> requests_;
   io::MachineRequest machine_request_;
   std::vector<double> torques_Nm_;

@@ -8,7 +8,9 @@
 
 #include "controllers/gcode/arc.h"
 #include "controllers/gcode/block.h"
+#include "controllers/gcode/feed.h"
 #include "controllers/gcode/line_codes.h"
+#include "controllers/gcode/word_rules.h"
 
 namespace feedtwin::controllers::gcode {
 namespace {
@@ -18,11 +20,9 @@ constexpr double inch = 25.4e-3;
 constexpr double rpm = 2.0 * std::numbers::pi / 60.0;
 constexpr double largest_coordinate_m = 1e4;  // beyond any machine; keeps all that follows finite
 constexpr double largest_dwell_s = 1e5;
-constexpr double largest_feed_m_per_s = 1e4;
 constexpr double largest_speed_rpm = 1e6;
 
-enum class FeedMode { per_minute, inverse_time, per_revolution };
-enum class Motion { traverse = 0, feed = 1, clockwise = 2, counterclockwise = 3, none = 80 };
+enum class Motion { traverse = 0, feed = 1, clockwise = 2, counterclockwise = 3, none = no_motion };
 
 class Interpreter {
  public:
@@ -62,8 +62,8 @@ class Interpreter {
   // In the order of NISTIR 6556, table 8.
   void execute(const Block& block) {
     const Codes codes = sort_codes(block);
-    check_words(block, codes);
-    feed_mode(block, codes);
+    check_words(block, codes, static_cast<int>(motion_));
+    feed_.read(block, codes, unit_m_);
     if (const auto& s = block.word('s')) spindle_speed(block, *s);
     if (const auto& t = block.word('t')) select_tool(block, *t);
     m_codes(block, codes);
@@ -76,50 +76,6 @@ class Interpreter {
     }
     for (const auto& setting : block.settings) set_parameter(setting);
     stopping(block, codes);
-  }
-
-  static bool is(const std::optional<Code>& code, int tenths) { return code && code->tenths == tenths; }
-  static bool has_axis(const Block& block) { return block.word('x') || block.word('y') || block.word('z'); }
-
-  void check_words(const Block& block, const Codes& codes) const {
-    const auto& written = codes[GGroup::motion];
-    const int motion = written ? written->tenths / 10 : static_cast<int>(motion_);
-    const bool homing = is(codes[GGroup::non_modal], 280);
-    const bool moves = (written || has_axis(block)) && motion != static_cast<int>(Motion::none) && !homing;
-    const bool arc = moves && (motion == 2 || motion == 3);
-    const bool dwell = is(codes[GGroup::non_modal], 40);
-    const bool blending = is(codes[GGroup::path_mode], 640);
-    const auto needs = [&](char letter, bool allowed, const char* where) {
-      const auto& word = block.word(letter);
-      if (word && !allowed) {
-        block.fail(word->at, std::string("a ") + static_cast<char>(letter - 'a' + 'A') + " word without " + where);
-      }
-    };
-    for (const char letter : {'i', 'j', 'k', 'r'}) needs(letter, arc, "G2 or G3");
-    needs('p', arc || dwell || blending, "G2, G3, G4 or G64");
-    needs('q', blending, "G64");
-    if (homing && written) block.fail(written->at, "a motion on the same line as G28");
-    if (homing && !codes.machine_coordinates) return;
-    if (codes.machine_coordinates && !(moves && motion <= 1)) {
-      block.fail(codes[GGroup::non_modal]->at, "G53 without G0 or G1");
-    }
-    if (!has_axis(block)) return;
-    const auto& axis = block.word('x') ? block.word('x') : block.word('y') ? block.word('y') : block.word('z');
-    if (!moves) block.fail(axis->at, "an axis word without a motion in force");
-  }
-
-  void feed_mode(const Block& block, const Codes& codes) {
-    if (const auto& code = codes[GGroup::feed_mode]) {
-      feed_mode_ = code->tenths == 930   ? FeedMode::inverse_time
-                   : code->tenths == 940 ? FeedMode::per_minute
-                                         : FeedMode::per_revolution;
-      feed_ = 0.0;  // a feed of the other kind means nothing in this one
-    }
-    if (const auto& f = block.word('f')) {
-      if (f->value < 0.0) block.fail(f->at, "expected a feed from 0 up");
-      // lengths are in the units in force before this line's G20 or G21 (NISTIR 6556, table 8: F comes first)
-      feed_ = feed_mode_ == FeedMode::inverse_time ? f->value : f->value * unit_m_;
-    }
   }
 
   void spindle_speed(const Block& block, const Word& s) {
@@ -236,29 +192,11 @@ class Interpreter {
     if (motion_ == Motion::traverse) {
       emit(block.line, StraightTraverse{to});
     } else if (motion_ == Motion::feed) {
-      emit(block.line, StraightFeed{to, feed_m_per_s(block, length(to - at_m_))});
+      emit(block.line, StraightFeed{to, feed_.m_per_s(block, length(to - at_m_), spindle_.speed_rad_per_s)});
     } else {
       arc(block, to);
     }
     at_m_ = to;
-  }
-
-  double feed_m_per_s(const Block& block, double length_m) const {
-    if (feed_mode_ == FeedMode::inverse_time && !block.word('f'))
-      block.fail(0, "G93 asks for an F word on every line that feeds");
-    if (feed_ <= 0.0) block.fail(0, "a feed move without a feed (F)");
-    double feed = 0.0;
-    if (feed_mode_ == FeedMode::inverse_time) {
-      feed = length_m * feed_ / 60.0;
-    } else if (feed_mode_ == FeedMode::per_minute) {
-      feed = feed_ / 60.0;
-    } else {
-      if (spindle_.speed_rad_per_s <= 0.0) block.fail(0, "a feed per revolution without a spindle speed (S)");
-      feed = feed_ * spindle_.speed_rad_per_s / (2.0 * std::numbers::pi);
-    }
-    const auto& f = block.word('f');
-    if (!(feed <= largest_feed_m_per_s)) block.fail(f ? f->at : 0, "the feed is beyond any machine");
-    return feed;
   }
 
   void arc(const Block& block, const Point& to) {
@@ -285,8 +223,8 @@ class Interpreter {
     command.centre_m[second] = result.arc.centre.second;
     const double radius = std::hypot(from.first - result.arc.centre.first, from.second - result.arc.centre.second);
     if (!(radius <= largest_coordinate_m)) block.fail(at, "the arc's radius is beyond any machine");
-    command.feed_m_per_s =
-        feed_m_per_s(block, std::hypot(radius * result.arc.sweep_rad, to[plane_axis_] - at_m_[plane_axis_]));
+    const double length_m = std::hypot(radius * result.arc.sweep_rad, to[plane_axis_] - at_m_[plane_axis_]);
+    command.feed_m_per_s = feed_.m_per_s(block, length_m, spindle_.speed_rad_per_s);
     emit(block.line, command);
   }
 
@@ -330,8 +268,7 @@ class Interpreter {
   int plane_axis_ = 2;
   bool incremental_ = false;
   Motion motion_ = Motion::traverse;
-  FeedMode feed_mode_ = FeedMode::per_minute;
-  double feed_ = 0.0;  // m/min, m/rev or moves a minute
+  Feed feed_;
   SetSpindle spindle_;
   SetCoolant coolant_;
   int tool_ = 0;

@@ -1,7 +1,6 @@
 #include "io/can/can_port.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 
 #include "io/can/canopen_node.h"
@@ -12,11 +11,7 @@ namespace feedtwin::io::can {
 namespace {
 
 constexpr auto supervision_period = std::chrono::milliseconds(20);
-
-/// Emergencies and SDO replies each say something of their own; every other frame is a state that a newer one replaces.
-bool cyclic(const Frame& frame) noexcept FEEDTWIN_REALTIME {
-  return frame.id > 0x180 && frame.id < 0x580;
-}
+constexpr std::int64_t longest_wait_ns = 50'000'000;  // to look after heartbeats and the end where no tick comes
 
 std::unique_ptr<Device> make_device(Settings& settings, const PortContext::Axis& axis, int index) {
   const auto personality = settings.word("personality", {"canopen", "odrive"}, "canopen");
@@ -41,164 +36,152 @@ std::unique_ptr<Device> make_device(Settings& settings, const PortContext::Axis&
 
 }  // namespace
 
-CanPort::CanPort(std::unique_ptr<Link> link, std::vector<std::unique_ptr<Device>> devices, bool supervised)
-    : link_(std::move(link)), devices_(std::move(devices)), supervised_(supervised) {}
+CanPort::CanPort(std::unique_ptr<Link> link, std::vector<std::unique_ptr<Device>> devices, const CanPortSettings& settings)
+    : settings_(settings), nodes_(std::move(link), std::move(devices)) {}
 
 void CanPort::open() {
-  link_->open();
+  nodes_.link().open();
   std::vector<std::uint16_t> ids;
-  gather_ids(ids);
-  link_->listen(ids);
-  if (supervised_) supervisor_ = std::jthread([this](const std::stop_token& stop) { supervise(stop); });
+  nodes_.gather_ids(ids);
+  nodes_.link().listen(ids);
+  if (settings_.supervised) supervisor_ = std::jthread([this](const std::stop_token& stop) { supervise(stop); });
+  if (settings_.answers_at_once) server_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
 void CanPort::close() noexcept {
   supervisor_ = {};
-  link_->close();
-}
-
-void CanPort::gather_ids(std::vector<std::uint16_t>& ids) const {
-  ids.clear();
-  std::array<std::uint16_t, Device::most_ids> own{};
-  for (const auto& device : devices_) {
-    device->listens_to(own);
-    ids.insert(ids.end(), own.begin(), own.end());
+  if (server_.joinable()) {
+    server_.request_stop();
+    nodes_.link().wake();
+    server_ = {};
   }
-  std::ranges::sort(ids);
-  const auto rest = std::ranges::unique(ids);
-  ids.erase(rest.begin(), rest.end());
+  nodes_.link().close();
 }
 
 /// A remapped PDO may need another filter, and a bus that is off a restart; neither has a place in the tick.
 void CanPort::supervise(const std::stop_token& stop) {
   std::vector<std::uint16_t> listening, ids;
-  gather_ids(listening);
+  nodes_.gather_ids(listening);
   while (!stop.stop_requested()) {
     std::this_thread::sleep_for(supervision_period);
-    gather_ids(ids);
+    nodes_.gather_ids(ids);
     if (ids != listening) {
       listening = ids;
-      link_->listen(listening);
+      nodes_.link().listen(listening);
     }
-    link_->supervise(link_->now_ns());
+    nodes_.link().supervise(nodes_.link().now_ns());
   }
 }
 
-bool CanPort::drain() noexcept FEEDTWIN_REALTIME {
-  if (!started_) {
-    started_ = true;
-    for (auto& device : devices_) device->start(link_->now_ns(), fresh_);
-  }
-  if (link_->take_recovery()) {
-    ++counters_.recoveries;
-    for (auto& device : devices_) device->bus_recovered(link_->now_ns(), fresh_);
-  }
-  trigger_ns_ = reply_ns_ = -1;
-  ReceivedFrame received;
-  bool step = false;
-  int taken = 0;
-  while (taken < most_frames && !(step && lockstep_) && link_->receive(received)) {
-    ++taken;
-    ++counters_.received;
-    for (auto& device : devices_) {
-      device->accept(received.frame, received.arrival_ns, fresh_);
-      if (!device->steps_the_plant(received.frame)) continue;
-      step = true;
-      trigger_ns_ = received.arrival_ns;
-    }
-  }
-  if (taken == most_frames) ++counters_.left_for_next_tick;
-  const bool answers = !fresh_.empty();
-  flush();
-  if (trigger_ns_ >= 0 && answers && waiting_.empty()) reply_ns_ = link_->now_ns() - trigger_ns_;
-  return step;
-}
-
-void CanPort::enqueue() noexcept FEEDTWIN_REALTIME {
-  for (; !fresh_.empty(); fresh_.pop()) {
-    const Frame& frame = fresh_.front();
-    if (cyclic(frame) && waiting_.replace(frame)) {
-      ++counters_.replaced;
-    } else if (!waiting_.push(frame)) {
-      ++counters_.lost;
-    }
+void CanPort::run(const std::stop_token& stop) noexcept {
+  rank_.take(settings_.priority);
+  while (!stop.stop_requested()) {
+    serve();
+    // after its most frames in a tick it waits for the next one, whatever else comes: a flood must not take the core
+    const auto by = nodes_.may_take_more() ? WakeUp::frame : WakeUp::call;
+    if (!nodes_.link().wait(nodes_.link().now_ns() + longest_wait_ns, by)) nodes_.renew_allowance();
   }
 }
 
-void CanPort::flush() noexcept FEEDTWIN_REALTIME {
-  enqueue();
-  while (!waiting_.empty()) {
-    const Sent result = link_->send(waiting_.front());
-    if (result == Sent::later) {
-      ++counters_.delayed;
-      return;
+void CanPort::serve() noexcept FEEDTWIN_REALTIME {
+  if (reports_.take()) {  // first, so that a SYNC is answered with the newest state
+    std::uint64_t failed = failed_encoders_.exchange(0, std::memory_order_relaxed);
+    for (std::size_t axis = 0; failed != 0; ++axis, failed >>= 1U) {
+      if ((failed & 1U) != 0) nodes_.encoder_failed(axis);
     }
-    ++(result == Sent::yes ? counters_.sent : counters_.lost);
-    waiting_.pop();
+    nodes_.report({reports_.newest().axis.data(), reports_.newest().axes});
   }
+  nodes_.drain(false);
+  pass_on_requests();
+}
+
+void CanPort::pass_on_requests() noexcept FEEDTWIN_REALTIME {
+  const bool used = !requests_.only_watched();
+  bool news = false;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    AxisRequest request;
+    if (!nodes_.take_request(i, request)) continue;
+    if (!used && request.enable) ++not_in_command_;
+    requests_.put(i, request);
+    news = true;
+  }
+  MachineRequest machine;
+  if (nodes_.take_machine_request(machine)) {
+    requests_.put(machine);
+    news = true;
+  }
+  if (news && used) requests_.hand_over();
 }
 
 std::uint64_t CanPort::receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME {
+  if (settings_.answers_at_once) return requests_.receive(newest);
   asked_ = true;
-  if (!lockstep_) drain();
+  if (!lockstep_) nodes_.drain(false);
   std::uint64_t fresh = 0;
-  for (std::size_t i = 0; i < devices_.size() && i < newest.size(); ++i) {
-    if (!devices_[i]->take_request(newest[i])) continue;
-    newest[i].reply_ns = reply_ns_;
-    fresh |= std::uint64_t{1} << i;
+  for (std::size_t i = 0; i < nodes_.size() && i < newest.size(); ++i) {
+    if (nodes_.take_request(i, newest[i])) fresh |= std::uint64_t{1} << i;
   }
   return fresh;
 }
 
+bool CanPort::receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME {
+  return settings_.answers_at_once ? requests_.receive_machine(newest) : nodes_.take_machine_request(newest);
+}
+
 void CanPort::send(const TickReport& /*tick*/, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME {
+  if (settings_.answers_at_once) {
+    Reports& reports = reports_.draft();
+    reports.axes = std::min(axes.size(), reports.axis.size());
+    std::copy_n(axes.begin(), reports.axes, reports.axis.begin());
+    reports_.post();
+    requests_.sent();
+    nodes_.link().wake();
+    return;
+  }
   if (!asked_ && sent_before_) serve_unasked();  // the first report comes before the first tick
   asked_ = false;
   sent_before_ = true;
-  const std::int64_t now_ns = link_->now_ns();
-  for (std::size_t i = 0; i < devices_.size() && i < axes.size(); ++i) devices_[i]->report(axes[i], now_ns, fresh_);
-  flush();
+  nodes_.report(axes);
 }
 
 void CanPort::serve_unasked() noexcept FEEDTWIN_REALTIME {
-  drain();
+  nodes_.drain(lockstep_);
   AxisRequest unused;
-  for (auto& device : devices_) {
-    if (device->take_request(unused) && unused.enable) ++counters_.not_in_command;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_.take_request(i, unused) && unused.enable) ++not_in_command_;
   }
 }
 
 bool CanPort::wait_for_request(std::int64_t until_ns) noexcept {
   lockstep_ = true;
   while (true) {
-    if (drain()) return true;
-    if (!link_->wait(until_ns)) return false;
+    if (nodes_.drain(true)) return true;
+    if (!nodes_.link().wait(until_ns, WakeUp::frame)) return false;
+    nodes_.renew_allowance();
   }
 }
 
 bool CanPort::break_encoder(EncoderFault fault, int axis, bool on, std::int64_t /*amount*/) noexcept FEEDTWIN_REALTIME {
   // A drive notices a dead line; lost counts, a swapped pair or a missing index it takes for motion.
   const bool noticed = fault == EncoderFault::dead_a || fault == EncoderFault::dead_b || fault == EncoderFault::dead_index;
-  if (on && noticed && axis >= 0 && static_cast<std::size_t>(axis) < devices_.size()) {
-    devices_[static_cast<std::size_t>(axis)]->encoder_failed(link_->now_ns(), fresh_);
+  if (on && noticed && axis >= 0 && axis < max_axes) {
+    if (settings_.answers_at_once) {
+      failed_encoders_.fetch_or(std::uint64_t{1} << axis, std::memory_order_relaxed);
+    } else {
+      nodes_.encoder_failed(static_cast<std::size_t>(axis));
+    }
   }
   return false;  // no lines of its own: the counts have to be falsified on their way here
 }
 
 std::vector<Counter> CanPort::counters() const {
   std::vector<Counter> all;
-  const auto add = [&](const char* name, const char* meaning, std::uint64_t value, bool loses_data = false) {
-    all.push_back({name, meaning, value, loses_data});
-  };
-  add("received", "frames taken from the bus", counters_.received);
-  add("sent", "frames given to the adapter", counters_.sent);
-  add("left_for_next_tick", "ticks in which more frames had come than one tick takes", counters_.left_for_next_tick);
-  add("delayed", "ticks in which the adapter had no room (ENOBUFS)", counters_.delayed);
-  add("replaced", "cyclic frames that waited and were overtaken by a newer one", counters_.replaced);
-  add("lost", "frames that could not be sent", counters_.lost + fresh_.refused(), true);
-  add("not_in_command", "enabled requests that came while another port commands, not used", counters_.not_in_command);
-  add("bus_recoveries", "times that the bus came back", counters_.recoveries, true);
-  link_->add_counters(all);
-  for (std::size_t i = 0; i < devices_.size(); ++i) devices_[i]->add_counters("axis " + std::to_string(i) + " ", all);
+  nodes_.add_counters(all);
+  all.push_back(
+      {"not_in_command", "enabled requests that came while another port commands, not used", not_in_command_, false});
+  if (settings_.answers_at_once) {
+    all.push_back({"superseded", "requests that a newer one replaced before a tick came", requests_.superseded().value()});
+  }
   return all;
 }
 
@@ -212,7 +195,11 @@ std::unique_ptr<Port> make_can_port(Settings& settings, const PortContext& conte
   for (int i = 0; i < context.axes; ++i) {
     devices.push_back(make_device(settings, context.axis[static_cast<std::size_t>(i)], i));
   }
-  return std::make_unique<CanPort>(std::make_unique<SocketCanLink>(socket), std::move(devices), true);
+  CanPortSettings can;
+  can.supervised = true;
+  can.answers_at_once = !context.lockstep;
+  can.priority = static_cast<int>(settings.integer("priority", 0, 98, can.priority));
+  return std::make_unique<CanPort>(std::make_unique<SocketCanLink>(socket), std::move(devices), can);
 }
 
 }  // namespace feedtwin::io::can

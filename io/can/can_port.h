@@ -1,76 +1,80 @@
 #pragma once
 // The port of a CAN bus: one device an axis, frames through a link.
+//
+// Free-running, a thread of its own serves the bus, as a drive's communication processor does: a SYNC is answered at once
+// with the state that the last tick ended with (object 2004 says which tick that was), and the torque that it latched acts
+// from the next tick on. In lockstep, and on a simulated bus, the tick serves the bus itself.
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <thread>
 #include <vector>
 
-#include "io/can/device.h"
-#include "io/can/link.h"
+#include "io/can/bus_nodes.h"
+#include "io/mailbox.h"
+#include "io/real_time_thread.h"
 #include "io/registry.h"
+#include "io/request_exchange.h"
 
 namespace feedtwin::io::can {
 
-struct CanPortCounters {
-  std::uint64_t received = 0, sent = 0;
-  std::uint64_t left_for_next_tick = 0;  ///< ticks that ended their drain at the bound
-  std::uint64_t delayed = 0;             ///< ticks in which the adapter had no room (ENOBUFS): sent later
-  std::uint64_t replaced = 0;            ///< cyclic frames that waited and were overtaken by a newer one
-  std::uint64_t lost = 0;                ///< frames that could not be sent, bus off or queue full
-  std::uint64_t recoveries = 0;          ///< times that the bus came back
-  std::uint64_t not_in_command = 0;      ///< enabled requests that came while another port commands: not used
+struct CanPortSettings {
+  bool supervised = false;       ///< filters follow the nodes' mappings, and a bus that is off is restarted
+  bool answers_at_once = false;  ///< by a thread of its own; false: in the tick
+  int priority = 76;             ///< of that thread, SCHED_FIFO, below the plant's; 0: none
 };
 
 class CanPort final : public Port {
  public:
-  /// Frames taken from the bus in one tick, at most.
-  static constexpr int most_frames = 128;
-
   /// @param devices one an axis
-  CanPort(std::unique_ptr<Link> link, std::vector<std::unique_ptr<Device>> devices, bool supervised);
+  CanPort(std::unique_ptr<Link> link, std::vector<std::unique_ptr<Device>> devices, const CanPortSettings& settings);
   ~CanPort() override { CanPort::close(); }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "can"; }
   void open() override;
   void close() noexcept override;
   std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME override;
-  bool receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME override {
-    return !devices_.empty() && devices_.front()->take_machine_request(newest);
-  }
+  bool receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME override;
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME override;
   bool wait_for_request(std::int64_t until_ns) noexcept override;
-  [[nodiscard]] bool can_step_the_plant() const noexcept override { return true; }
+  [[nodiscard]] bool can_step_the_plant() const noexcept override { return !settings_.answers_at_once; }
   bool break_encoder(EncoderFault fault, int axis, bool on, std::int64_t amount) noexcept FEEDTWIN_REALTIME override;
+  /// After close(), where a thread of its own serves the bus.
   [[nodiscard]] std::vector<Counter> counters() const override;
+  [[nodiscard]] std::vector<PortEvent> take_events() override { return rank_.refusal("CAN thread"); }
 
-  [[nodiscard]] const CanPortCounters& totals() const noexcept { return counters_; }
+  [[nodiscard]] const BusCounters& totals() const noexcept { return nodes_.totals(); }
+  /// Enabled requests that came while another port commands.
+  [[nodiscard]] std::uint64_t not_in_command() const noexcept { return not_in_command_; }
 
  private:
-  /// Take frames from the link until there are none, `most_frames` are reached or a step of the plant is due.
-  bool drain() noexcept FEEDTWIN_REALTIME;
+  /// What the tick tells the thread that serves the bus.
+  struct Reports {
+    std::array<AxisReport, max_axes> axis{};
+    std::size_t axes = 0;
+  };
+  void run(const std::stop_token& stop) noexcept;
+  /// One turn of that thread.
+  void serve() noexcept FEEDTWIN_REALTIME;
+  void pass_on_requests() noexcept FEEDTWIN_REALTIME;
   /// Answers the bus where another port commands and nobody asks this one.
   void serve_unasked() noexcept FEEDTWIN_REALTIME;
-  void flush() noexcept FEEDTWIN_REALTIME;
-  void enqueue() noexcept FEEDTWIN_REALTIME;
   void supervise(const std::stop_token& stop);
-  void gather_ids(std::vector<std::uint16_t>& ids) const;
 
-  std::unique_ptr<Link> link_;
-  std::vector<std::unique_ptr<Device>> devices_;
-  bool supervised_;
-  bool started_ = false;
+  CanPortSettings settings_;
+  BusNodes nodes_;
   bool sent_before_ = false;
-  bool asked_ = false;            ///< since the last send()
-  bool lockstep_ = false;         ///< the loop waits for us: frames are taken there, one step of the plant at a time
-  std::int64_t trigger_ns_ = -1;  ///< arrival of the frame that asked for a reply in this drain
-  std::int64_t reply_ns_ = -1;    ///< from there to the reply's leaving
-  FrameQueue fresh_;              ///< what the devices say
-  FrameQueue waiting_;            ///< for room in the adapter
-  CanPortCounters counters_;
-  std::jthread supervisor_;
+  bool asked_ = false;     ///< since the last send()
+  bool lockstep_ = false;  ///< the loop waits for us: frames are taken there, one step of the plant at a time
+  std::uint64_t not_in_command_ = 0;
+  // between the tick and the thread
+  RequestExchange requests_;
+  Mailbox<Reports> reports_;
+  std::atomic<std::uint64_t> failed_encoders_{0};  ///< a bit an axis
+  RealTimeRank rank_;
+  std::jthread supervisor_, server_;
 };
 
 /// Kind `can`. Keys: interface, personality, node_id, ... as in systemd/examples/can.toml.

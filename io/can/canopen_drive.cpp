@@ -9,6 +9,8 @@ namespace feedtwin::io::can {
 namespace {
 
 constexpr int cyclic_synchronous_torque = 10;
+/// 605A, quick stop option code: the two that know no ramp.
+enum QuickStopOption : int { at_the_limit = 3, at_the_limit_and_stay = 7 };
 /// 6007, abort connection option code.
 enum AbortConnection : int { no_action = 0, to_fault = 1, disable_voltage = 2, to_quick_stop = 3 };
 
@@ -89,6 +91,11 @@ bool CanopenNode::take_request(AxisRequest& newest) noexcept FEEDTWIN_REALTIME {
   newest.torque_Nm = wanted_torque_Nm();
   newest.enable = drive_state_.operating() || drive_state_.braking();
   newest.quick_stop = drive_state_.braking();
+  const int option = stop_options().quick_stop;
+  const bool ramp = option != at_the_limit && option != at_the_limit_and_stay;
+  newest.brake_m_per_s2 =
+      ramp ? static_cast<double>(at(entry_.deceleration)) * drive_.lead_m / drive_.encoder_counts_per_rev : 0.0;
+  newest.brake_limit_Nm = static_cast<double>(at(entry_.most_torque)) * 1e-3 * drive_.rated_torque_Nm;
   return true;
 }
 

@@ -32,7 +32,7 @@ CanopenNode::CanopenNode(const DriveIdentity& drive)
              entry_of(0x6072, 0), entry_of(0x60B2, 0), entry_of(0x6074, 0), entry_of(0x6077, 0), entry_of(0x6064, 0),
              entry_of(0x606C, 0), entry_of(0x60FD, 0), entry_of(0x605A, 0), entry_of(0x605E, 0), entry_of(0x6007, 0),
              entry_of(0x2001, 0), entry_of(0x2002, 0), entry_of(0x1017, 0), entry_of(0x1016, 1), entry_of(0x2010, 0),
-             entry_of(0x2011, 0), entry_of(0x2012, 0)},
+             entry_of(0x2011, 0), entry_of(0x2012, 0), entry_of(0x6085, 0), entry_of(0x2004, 0)},
       objects_(drive) {
   for (int i = 0; i < pdos; ++i) {
     const auto n = static_cast<std::size_t>(i);
@@ -220,6 +220,7 @@ void CanopenNode::report(const AxisReport& axis, std::int64_t now_ns, FrameQueue
   const double per_mille = std::clamp(wanted_per_mille, -32768.0, 32767.0);
   if (per_mille != wanted_per_mille) ++counters_.saturated;
   standstill_ = std::abs(velocity) < standstill_counts_per_s;
+  objects_.set(entry_.ticks, static_cast<std::uint32_t>(axis.ticks_done));
   objects_.set(entry_.position, static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.encoder_counts)));
   objects_.set(entry_.velocity, static_cast<std::int64_t>(velocity));
   objects_.set(entry_.torque, static_cast<std::int64_t>(per_mille));

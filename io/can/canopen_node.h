@@ -1,8 +1,9 @@
 #pragma once
 // One axis as a CANopen drive: CiA 301 slave, CiA 402 in cyclic synchronous torque mode. Pure: no clock, no socket.
 //
-// Torque that comes in an RPDO before SYNC k is latched at SYNC k; TPDO 1 at SYNC k carries the position of the last tick
-// that ended before it. Positions are i32 and wrap every 2^32 counts.
+// Torque that comes in an RPDO before SYNC k is latched at SYNC k and acts in the first tick that begins after it; TPDO 1 at
+// SYNC k carries the position of the last tick that ended before it, and object 2004, mappable, how many ticks that were.
+// Positions are i32 and wrap every 2^32 counts. Quick stop: the drive brakes along the ramp of 6085 (rt/quick_stop.h).
 
 #include <array>
 #include <atomic>
@@ -71,7 +72,7 @@ class CanopenNode final : public Device, private SdoObjects {
   struct Entries {
     int controlword, statusword, mode, mode_shown, target_torque, most_torque, torque_offset, torque_demand, torque,
         position, velocity, inputs, quick_stop_option, fault_option, abort_option, most_missed_syncs, sync_timeout,
-        heartbeat_producer, heartbeat_consumer, spindle_speed, auxiliary, depth_of_cut;
+        heartbeat_producer, heartbeat_consumer, spindle_speed, auxiliary, depth_of_cut, deceleration, ticks;
   };
 
   // SDO

@@ -52,7 +52,7 @@ Abort CanopenNode::allow(int entry, std::int64_t value) noexcept FEEDTWIN_REALTI
     case 0x6060:  // 0: no change of mode
       return value == 0 || value == 10 ? Abort::ok : Abort::value;
     case 0x605A:
-      return value == 0 || value == 2 || value == 6 ? Abort::ok : Abort::value;
+      return value == 0 || value == 2 || value == 3 || value == 6 || value == 7 ? Abort::ok : Abort::value;
     case 0x605E:
       return value == 0 || value == 2 ? Abort::ok : Abort::value;
     case 0x1016:

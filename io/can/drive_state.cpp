@@ -41,9 +41,9 @@ bool DriveStateMachine::step(std::uint16_t controlword, bool standstill,
       if (standstill) state_ = Cia402State::fault;
       return false;
     case Cia402State::quick_stop_active:
-      if ((controlword & (enable_voltage | fault_reset)) == 0 || (standstill && options.quick_stop != 6)) {
+      if ((controlword & (enable_voltage | fault_reset)) == 0 || (standstill && !stays(options))) {
         state_ = Cia402State::switch_on_disabled;
-      } else if (options.quick_stop == 6 && (controlword & (resume | fault_reset)) == resume) {
+      } else if (stays(options) && (controlword & (resume | fault_reset)) == resume) {
         state_ = Cia402State::operation_enabled;
       }
       return false;

@@ -27,7 +27,9 @@ inline constexpr std::uint16_t follows_command = 1U << 12;
 
 /// How a drive stops: objects 605A (quick stop), 605E (fault).
 struct StopOptions {
-  int quick_stop = 2;      ///< 0: switch-on disabled at once; 2: that, at standstill; 6: stay in quick stop
+  /// 0: switch-on disabled at once, the axis coasts; 2: brake along the ramp of 6085; 3: with all the torque of 6072; at
+  /// standstill switch-on disabled. 6, 7: as 2 and 3, but stay in quick stop
+  int quick_stop = 2;
   int fault_reaction = 0;  ///< 0: torque off at once; 2: as a quick stop, then torque off
 };
 
@@ -48,6 +50,8 @@ class DriveStateMachine {
   void fault(const StopOptions& options) noexcept FEEDTWIN_REALTIME;
   void disable() noexcept FEEDTWIN_REALTIME;
   void quick_stop() noexcept FEEDTWIN_REALTIME;
+  /// Whether a standing drive is to stay in quick stop.
+  [[nodiscard]] static bool stays(const StopOptions& options) noexcept FEEDTWIN_REALTIME { return options.quick_stop >= 5; }
   void reset() noexcept FEEDTWIN_REALTIME { *this = {}; }
 
  private:

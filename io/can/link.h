@@ -21,6 +21,9 @@ enum class Sent : std::uint8_t {
   lost,   ///< the bus is gone; the frame is not to be sent any more
 };
 
+/// What ends a wait.
+enum class WakeUp : std::uint8_t { frame, call };  // call: of Link::wake(), which `frame` includes
+
 class Link {
  public:
   Link() = default;
@@ -39,8 +42,10 @@ class Link {
   /// True once after the link was off the bus and came back.
   virtual bool take_recovery() noexcept FEEDTWIN_REALTIME = 0;
 
-  /// Wait until a frame has come. Not for a tick on a grid. @return false at the given time
-  virtual bool wait(std::int64_t until_ns) noexcept = 0;
+  /// Wait until a frame has come or somebody calls wake(). Not for a tick on a grid. @return false at the given time
+  virtual bool wait(std::int64_t until_ns, WakeUp by) noexcept = 0;
+  /// End the wait under way, or else the next one. From any thread, the tick too.
+  virtual void wake() noexcept FEEDTWIN_REALTIME = 0;
   /// Take only these identifiers from the bus (0xFFFF: none). Set-up, or the supervising thread.
   virtual void listen(std::span<const std::uint16_t> ids) noexcept = 0;
   /// Look after the bus: restart it when it is off. Called every 20 ms or so from the supervising thread.

@@ -119,6 +119,7 @@ constexpr void add_manufacturer_objects(Table& t) {
   t.add(limited(plain(0x2001, 0, "SYNCs without RPDO before the reaction of 6007", u8, read_write, 3), 0, 255));
   t.add(plain(0x2002, 0, "SYNC timeout while enabled, 0 for none", u16, read_write, 100, Mappable::no, "ms"));
   t.add(of_axis(plain(0x2003, 0, "Ball screw lead", u32, constant, 0, Mappable::no, "nm")));
+  t.add(plain(0x2004, 0, "Ticks of the plant behind the position", u32, read, 0, Mappable::transmit));
   // of the machine tool that the first axis belongs to
   t.add(plain(0x2010, 0, "Spindle speed", u16, read_write, 0, Mappable::receive, "rpm"));
   t.add(limited(plain(0x2011, 0, "Auxiliary functions", u8, read_write, 0, Mappable::receive), 0, 15));
@@ -131,7 +132,7 @@ constexpr void add_drive_profile(Table& t) {
   t.add(plain(0x603F, 0, "Error code", u16, read, 0, transmit));
   t.add(plain(0x6040, 0, "Controlword", u16, read_write, 0, receive));
   t.add(plain(0x6041, 0, "Statusword", u16, read, 0, transmit));
-  t.add(limited(plain(0x605A, 0, "Quick stop option code", i16, read_write, 2), 0, 6));
+  t.add(limited(plain(0x605A, 0, "Quick stop option code", i16, read_write, 2), 0, 7));
   t.add(limited(plain(0x605E, 0, "Fault reaction option code", i16, read_write, 0), 0, 2));
   t.add(limited(plain(0x6060, 0, "Modes of operation", i8, read_write, 10, receive), 0, 10));
   t.add(plain(0x6061, 0, "Modes of operation display", i8, read, 10, transmit));
@@ -142,6 +143,7 @@ constexpr void add_drive_profile(Table& t) {
   t.add(plain(0x6074, 0, "Torque demand", i16, read, 0, transmit, "1/1000 of rated torque"));
   t.add(of_axis(plain(0x6076, 0, "Motor rated torque", u32, constant, 0, no, "mNm")));
   t.add(plain(0x6077, 0, "Torque actual value", i16, read, 0, transmit, "1/1000 of rated torque"));
+  t.add(of_axis(plain(0x6085, 0, "Quick stop deceleration", u32, read_write, 0, no, "counts/s^2")));
   t.add(highest_sub(0x608F, 2));
   t.add(of_axis(plain(0x608F, 1, "Encoder increments", u32, constant, 0, no, "counts")));
   t.add(plain(0x608F, 2, "Motor revolutions", u32, constant, 1));

@@ -6,12 +6,17 @@
 
 namespace feedtwin::io::can {
 
+/// What a feed drive's power supply lets it do without a thought: one g.
+constexpr double quick_stop_m_per_s2 = 9.81;
+
 std::int64_t preset_of(const ObjectEntry& entry, const DriveIdentity& drive) noexcept FEEDTWIN_REALTIME {
   if (entry.preset_kind == Preset::plus_node_id) return entry.preset + drive.node_id;
   if (entry.preset_kind == Preset::fixed) return entry.preset;
   switch (entry.index) {
     case 0x2003:
       return std::llround(drive.lead_m * 1e9);
+    case 0x6085:
+      return std::llround(std::min(quick_stop_m_per_s2 * drive.encoder_counts_per_rev / drive.lead_m, 4294967295.0));
     case 0x6076:
       return std::llround(drive.rated_torque_Nm * 1e3);
     default:  // 608F and 6092: one motor revolution in counts

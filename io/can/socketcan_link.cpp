@@ -5,6 +5,7 @@
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -35,6 +36,8 @@ void SocketCanLink::open() {
   if (interface_index_ == 0) throw failed("no such CAN interface (ip link add dev vcan0 type vcan makes a virtual one)");
   socket_ = Descriptor(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   if (!socket_) throw failed("can't open a CAN socket");
+  wake_ = Descriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+  if (!wake_) throw failed("can't make an event counter");
   const int on = 1;
   const can_err_mask_t errors = CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL | CAN_ERR_ACK | CAN_ERR_TX_TIMEOUT;
   set_option(socket_.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors, "the error filter");
@@ -44,6 +47,11 @@ void SocketCanLink::open() {
   address.can_family = AF_CAN;
   address.can_ifindex = interface_index_;
   if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) throw failed("can't bind");
+}
+
+void SocketCanLink::close() noexcept {
+  socket_.reset();
+  wake_.reset();
 }
 
 void SocketCanLink::listen(std::span<const std::uint16_t> ids) noexcept {
@@ -156,11 +164,21 @@ Sent SocketCanLink::send(const Frame& frame) noexcept FEEDTWIN_REALTIME {
   return Sent::lost;
 }
 
-bool SocketCanLink::wait(std::int64_t until_ns) noexcept {
-  pollfd waiting{socket_.get(), POLLIN, 0};
+bool SocketCanLink::wait(std::int64_t until_ns, WakeUp by) noexcept {
+  std::array<pollfd, 2> waiting{pollfd{wake_.get(), POLLIN, 0}, pollfd{socket_.get(), POLLIN, 0}};
   const std::int64_t left_ns = std::max<std::int64_t>(until_ns - monotonic_ns(), 0);
   const timespec left{static_cast<time_t>(left_ns / 1'000'000'000), static_cast<long>(left_ns % 1'000'000'000)};
-  return ::ppoll(&waiting, 1, &left, nullptr) > 0;
+  if (::ppoll(waiting.data(), by == WakeUp::frame ? 2 : 1, &left, nullptr) <= 0) return false;
+  std::uint64_t calls = 0;
+  if (waiting[0].revents != 0) (void)!::read(wake_.get(), &calls, sizeof calls);  // non-blocking: back to none
+  return true;
+}
+
+void SocketCanLink::wake() noexcept FEEDTWIN_REALTIME {
+  const std::uint64_t once = 1;
+  FEEDTWIN_ADMIT_BEGIN  // a non-blocking counter: at most wakes a thread
+      (void) !::write(wake_.get(), &once, sizeof once);
+  FEEDTWIN_ADMIT_END
 }
 
 void SocketCanLink::supervise(std::int64_t now_ns) noexcept {

@@ -23,12 +23,13 @@ class SocketCanLink final : public Link {
   explicit SocketCanLink(SocketCanSettings settings) : settings_(std::move(settings)) {}
 
   void open() override;
-  void close() noexcept override { socket_.reset(); }
+  void close() noexcept override;
   bool receive(ReceivedFrame& frame) noexcept FEEDTWIN_REALTIME override;
   Sent send(const Frame& frame) noexcept FEEDTWIN_REALTIME override;
   [[nodiscard]] std::int64_t now_ns() noexcept FEEDTWIN_REALTIME override;
   bool take_recovery() noexcept FEEDTWIN_REALTIME override;
-  bool wait(std::int64_t until_ns) noexcept override;
+  bool wait(std::int64_t until_ns, WakeUp by) noexcept override;
+  void wake() noexcept FEEDTWIN_REALTIME override;
   void listen(std::span<const std::uint16_t> ids) noexcept override;
   void supervise(std::int64_t now_ns) noexcept override;
   void add_counters(std::vector<Counter>& counters) const override;
@@ -38,7 +39,7 @@ class SocketCanLink final : public Link {
   void error_frame(std::uint32_t classes) noexcept FEEDTWIN_REALTIME;
 
   SocketCanSettings settings_;
-  Descriptor socket_;
+  Descriptor socket_, wake_;
   int interface_index_ = 0;
   std::atomic<bool> bus_off_{false};
   bool recovered_ = false;

@@ -37,7 +37,8 @@ class TwinBus::Station final : public Link {
   }
   [[nodiscard]] std::int64_t now_ns() noexcept FEEDTWIN_REALTIME override { return bus_.now_ns_; }
   bool take_recovery() noexcept FEEDTWIN_REALTIME override { return std::exchange(recovered_, false); }
-  bool wait(std::int64_t /*until_ns*/) noexcept override { return !inbox_.empty(); }
+  bool wait(std::int64_t /*until_ns*/, WakeUp /*by*/) noexcept override { return !inbox_.empty(); }
+  void wake() noexcept FEEDTWIN_REALTIME override {}
   void listen(std::span<const std::uint16_t> /*ids*/) noexcept override {}
   void supervise(std::int64_t /*now_ns*/) noexcept override {}
   void add_counters(std::vector<Counter>& /*counters*/) const override {}

@@ -1,12 +1,7 @@
 #include "io/gpio/gpio_port.h"
 
-#include <pthread.h>
-#include <sched.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 #include "io/gpio/libgpiod_lines.h"
 #include "io/monotonic.h"
@@ -61,13 +56,6 @@ bool GpioPort::break_encoder(EncoderFault fault, int axis, bool on, std::int64_t
   return true;
 }
 
-void GpioPort::make_real_time() noexcept {
-  if (settings_.priority == 0) return;
-  sched_param parameter{};
-  parameter.sched_priority = settings_.priority;
-  real_time_error_.store(::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter));
-}
-
 void GpioPort::take_aim() noexcept {
   if (!aim_.take()) return;
   const Aim& aim = aim_.newest();
@@ -83,7 +71,7 @@ void GpioPort::take_aim() noexcept {
 }
 
 void GpioPort::run(const std::stop_token& stop) noexcept {
-  make_real_time();
+  rank_.take(settings_.priority);
   const std::int64_t spin_ns = to_ns(settings_.spin_s);
   while (!stop.stop_requested()) {
     take_aim();
@@ -123,12 +111,6 @@ std::vector<Counter> GpioPort::counters() const {
   all.push_back({"edge_late_us_at_worst", "longest that an edge came after its time, us",
                  static_cast<std::uint64_t>(most_late_ns_.load() / 1000), false});
   return all;
-}
-
-std::vector<PortEvent> GpioPort::take_events() {
-  const int error = real_time_error_.exchange(0);
-  if (error == 0) return {};
-  return {{0.0, std::string("edge thread without real-time priority: ") + std::strerror(error)}};
 }
 
 std::unique_ptr<Port> make_gpio_port(Settings& settings, const PortContext& context) {

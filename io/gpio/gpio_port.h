@@ -14,6 +14,7 @@
 
 #include "io/gpio/edge_player.h"
 #include "io/mailbox.h"
+#include "io/real_time_thread.h"
 #include "io/registry.h"
 
 namespace feedtwin::io::gpio {
@@ -40,7 +41,7 @@ class GpioPort final : public Port {
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME override;
   bool break_encoder(EncoderFault fault, int axis, bool on, std::int64_t amount) noexcept FEEDTWIN_REALTIME override;
   [[nodiscard]] std::vector<Counter> counters() const override;
-  [[nodiscard]] std::vector<PortEvent> take_events() override;
+  [[nodiscard]] std::vector<PortEvent> take_events() override { return rank_.refusal("edge thread"); }
 
  private:
   /// What the tick tells the edge thread.
@@ -51,7 +52,6 @@ class GpioPort final : public Port {
   };
   void run(const std::stop_token& stop) noexcept;
   void take_aim() noexcept;
-  void make_real_time() noexcept;
 
   GpioSettings settings_;
   std::unique_ptr<Lines> lines_;
@@ -60,7 +60,7 @@ class GpioPort final : public Port {
   Mailbox<Aim> aim_;
   sem_t news_{};
   bool placed_ = false;
-  std::atomic<int> real_time_error_{0};
+  RealTimeRank rank_;
   std::atomic<std::uint64_t> edges_{0}, overspeed_ticks_{0}, refused_sets_{0};
   std::atomic<std::int64_t> most_behind_{0}, most_late_ns_{0};
   std::jthread thread_;

@@ -18,10 +18,10 @@ class ModbusPort final : public Port {
   void open() override;
   void close() noexcept override;
   std::uint64_t receive(std::span<AxisRequest> newest) noexcept FEEDTWIN_REALTIME override {
-    return exchange_.receive(newest);
+    return exchange_.requests().receive(newest);
   }
   bool receive_machine(MachineRequest& newest) noexcept FEEDTWIN_REALTIME override {
-    return exchange_.receive_machine(newest);
+    return exchange_.requests().receive_machine(newest);
   }
   void send(const TickReport& tick, std::span<const AxisReport> axes) noexcept FEEDTWIN_REALTIME override {
     exchange_.send(tick, axes);

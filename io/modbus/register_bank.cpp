@@ -62,18 +62,16 @@ void RegisterBank::write(const Request& request, std::int64_t arrival_ns) noexce
     } else if (covers(request.write, base + holding::analog_torque)) {
       registers[holding::torque] = torque_from_analog(registers[holding::analog_torque]);
     }
-    if (request.write.begin <= base + holding::analog_torque) post(axis, arrival_ns);  // not for reserved registers alone
+    if (request.write.begin <= base + holding::analog_torque) put(axis, arrival_ns);  // not for reserved registers alone
   }
   const std::size_t end = request.write.begin + request.write.count;
   if (request.write.begin <= holding::depth_of_cut && end > holding::spindle_speed) {
-    image_.machine = machine_request_from(holding_of(0));
-    ++image_.machine_number;
+    exchange_.requests().put(machine_request_from(holding_of(0)));
   }
-  exchange_.requests().draft() = image_;
-  exchange_.requests().post();
+  exchange_.requests().hand_over();
 }
 
-void RegisterBank::post(std::size_t axis, std::int64_t arrival_ns) noexcept {
+void RegisterBank::put(std::size_t axis, std::int64_t arrival_ns) noexcept {
   const auto registers = holding_of(axis);
   if (torque_is_clipped(registers[holding::torque])) ++clipped_torques_;
   const auto step =
@@ -82,13 +80,10 @@ void RegisterBank::post(std::size_t axis, std::int64_t arrival_ns) noexcept {
   wire_sequence_[axis] = registers[holding::sequence];
 
   AxisRequest request = request_from(registers, exchange_.rated_torque_Nm(axis));
-  // should it be taken after all in this moment, the change is told twice, which is once
-  if (exchange_.requests().waiting()) request = replacing(image_.request[axis], request);
   request.sequence = sequence_[axis];
   request.counted = registers[holding::sequence] != 0;
   request.arrival_ns = arrival_ns;
-  image_.request[axis] = request;
-  ++image_.number[axis];
+  exchange_.requests().put(axis, request);
 }
 
 void RegisterBank::forget_commands() noexcept {

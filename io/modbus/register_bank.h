@@ -18,7 +18,7 @@ class RegisterBank {
   explicit RegisterBank(Exchange& exchange);
 
   [[nodiscard]] Extent extent() const noexcept;
-  [[nodiscard]] bool writable() const noexcept { return !exchange_.only_watched(); }
+  [[nodiscard]] bool writable() const noexcept { return !exchange_.requests().only_watched(); }
   /// Bring the input registers up to the last tick.
   void refresh(bool somebody_in_command) noexcept;
   /// Store what a client wrote, checked before, and give the axes that it touches to the tick.
@@ -32,12 +32,11 @@ class RegisterBank {
   [[nodiscard]] const Tally& clipped_torques() const noexcept { return clipped_torques_; }
 
  private:
-  void post(std::size_t axis, std::int64_t arrival_ns) noexcept;
+  void put(std::size_t axis, std::int64_t arrival_ns) noexcept;
   [[nodiscard]] std::span<std::uint16_t, holding_stride> holding_of(std::size_t axis) noexcept;
 
   Exchange& exchange_;
   std::vector<std::uint16_t> registers_;
-  RequestImage image_;
   std::array<std::uint32_t, max_axes> sequence_{};  ///< the 16 bits of the wire, continued to 32
   std::array<std::uint16_t, max_axes> wire_sequence_{};
   Tally clipped_torques_;

@@ -6,7 +6,8 @@
 //
 //   holding  classic  meaning                                                   unit
 //   0        40001    torque command, -10000..10000 (beyond: clipped, counted)  0.01 % of rated torque
-//   1        40002    control bits: 0 enable, 1 quick stop, 7 fault reset (acts on its rising edge)
+//   1        40002    control bits: 0 enable, 1 quick stop (the drive brakes by rated torque to rest), 7 fault reset (acts
+//                     on its rising edge)
 //   2        40003    command sequence, counted up by the controller; 0 if it does not count
 //   3        40004    watchdog time; 0: as configured                           ms
 //   4        40005    torque command as an analog drive has it: writing it sets register 0   32767 = 10 V = rated torque

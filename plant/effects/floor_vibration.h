@@ -15,15 +15,11 @@ namespace feedtwin::plant::effects {
 class FloorVibration final : public Effect {
  public:
   FloorVibration(const EffectContext& context, const EffectSetting& setting)
-      : amplitude_N_(setting.values[0] * context.model.table_mass_kg),
-        frequency_Hz_(setting.values[1]),
-        phase_rad_(setting.values[2]) {}
-  [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    return {amplitude_N_ * time_sine_mean(frequency_Hz_, phase_rad_, m.time_s, m.h_s), 0.0};
-  }
+      : inertia_(setting.values[0] * context.model.table_mass_kg, setting.values[1], setting.values[2]) {}
+  [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override { return {inertia_.mean_N(m), 0.0}; }
 
  private:
-  double amplitude_N_, frequency_Hz_, phase_rad_;
+  TimeWave inertia_;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

@@ -6,20 +6,18 @@
 // c = relative_change, T = time_constant_s, t since the run began. T at its lowest is a step between sessions.
 
 #include <array>
-#include <cmath>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/saturating_change.h"
 
 namespace feedtwin::plant::effects {
 
 class FrictionDrift final : public Effect {
  public:
   FrictionDrift(const EffectContext& /*context*/, const EffectSetting& setting)
-      : change_(setting.values[0]), time_constant_s_(setting.values[1]) {}
+      : change_(setting.values[0], setting.values[1]) {}
 
-  void tick(const TickStart& start) noexcept override {
-    factor_ = 1.0 + change_ * (1.0 - std::exp(-start.time_s / time_constant_s_));
-  }
+  void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.time_s); }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
     scale.screw_sliding *= factor_;
@@ -27,7 +25,7 @@ class FrictionDrift final : public Effect {
   }
 
  private:
-  double change_, time_constant_s_;
+  SaturatingChange change_;
   double factor_ = 1.0;
 };
 

@@ -15,16 +15,12 @@ namespace feedtwin::plant::effects {
 class ProcessForce final : public Effect {
  public:
   ProcessForce(const EffectContext& /*context*/, const EffectSetting& setting)
-      : mean_N_(setting.values[0]),
-        amplitude_N_(setting.values[1]),
-        frequency_Hz_(setting.values[2]),
-        phase_rad_(setting.values[3]) {}
-  [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    return {mean_N_ + amplitude_N_ * time_sine_mean(frequency_Hz_, phase_rad_, m.time_s, m.h_s), 0.0};
-  }
+      : mean_N_(setting.values[0]), teeth_(setting.values[1], setting.values[2], setting.values[3]) {}
+  [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override { return {mean_N_ + teeth_.mean_N(m), 0.0}; }
 
  private:
-  double mean_N_, amplitude_N_, frequency_Hz_, phase_rad_;
+  double mean_N_;
+  TimeWave teeth_;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

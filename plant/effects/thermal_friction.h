@@ -6,29 +6,26 @@
 // r = viscous_reduction, E = energy_scale_J, W the work done on the ball screw's friction since the run began: every
 // run begins cold.
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/saturating_change.h"
 
 namespace feedtwin::plant::effects {
 
 class ThermalFriction final : public Effect {
  public:
   ThermalFriction(const EffectContext& /*context*/, const EffectSetting& setting)
-      : reduction_(setting.values[0]), energy_J_(setting.values[1]) {}
+      : change_(-setting.values[0], setting.values[1]) {}
 
-  void tick(const TickStart& start) noexcept override {
-    factor_ = 1.0 - reduction_ * (1.0 - std::exp(-std::max(0.0, start.screw_friction_J) / energy_J_));
-  }
+  void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.screw_friction_J); }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
     scale.screw_viscous *= factor_;
   }
 
  private:
-  double reduction_, energy_J_;
+  SaturatingChange change_;
   double factor_ = 1.0;
 };
 

@@ -46,11 +46,21 @@ class RevolutionWave {
   double wave_rad_per_m_, phase_rad_;
 };
 
-/// Mean of sin(2 pi f t + phase) from t to t + h.
-[[nodiscard]] inline double time_sine_mean(double frequency_Hz, double phase_rad, double time_s, double h_s) noexcept {
-  const double half = std::numbers::pi * frequency_Hz * h_s;
-  return std::sin(2.0 * std::numbers::pi * frequency_Hz * time_s + phase_rad + half) * sinc(half).value;
-}
+/// A force A sin(2 pi f t + phase), t since the run began.
+class TimeWave {
+ public:
+  TimeWave(double amplitude_N, double frequency_Hz, double phase_rad) noexcept
+      : amplitude_N_(amplitude_N), frequency_Hz_(frequency_Hz), phase_rad_(phase_rad) {}
+
+  /// Mean over a sub-step.
+  [[nodiscard]] double mean_N(const EffectMotion& m) const noexcept {
+    const double half = std::numbers::pi * frequency_Hz_ * m.h_s;
+    return amplitude_N_ * std::sin(2.0 * std::numbers::pi * frequency_Hz_ * m.time_s + phase_rad_ + half) * sinc(half).value;
+  }
+
+ private:
+  double amplitude_N_, frequency_Hz_, phase_rad_;
+};
 
 inline constexpr double whole_turn_rad = 6.2831853071795864;
 

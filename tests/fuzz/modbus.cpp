@@ -60,7 +60,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto got = recv(bench.sockets[1], reply.data(), reply.size(), MSG_DONTWAIT);
     require(got > 0);
     check_reply(frame, {reply.data(), static_cast<std::size_t>(got)});
-    exchange.receive(requests);
+    exchange.requests().receive(requests);
     for (const auto& request : requests) require(std::abs(request.torque_Nm) <= 1.27 * (1 + 1e-12));
     exchange.send({.tick = n, .missed_ticks = 0, .start_ns = 0}, reports);
     if (frame.size() % 7 == 0) responder.leave(frame[6] & 1U);

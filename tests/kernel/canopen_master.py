@@ -127,14 +127,14 @@ def check_objects(master):
 
 
 def remap(master):
-    """TPDO 2 to another identifier, with velocity and inputs, on every SYNC."""
+    """TPDO 2 to another identifier, with velocity and the tick that it is of, on every SYNC."""
     assert master.write(0x1A01, 0, 0, 1) == 0x06010000  # not while it exists
     for index, sub, value, length in (
-        (0x1801, 1, 0xC0000281, 4), (0x1A01, 0, 0, 1), (0x1A01, 1, 0x606C0020, 4), (0x1A01, 2, 0x60FD0020, 4),
+        (0x1801, 1, 0xC0000281, 4), (0x1A01, 0, 0, 1), (0x1A01, 1, 0x606C0020, 4), (0x1A01, 2, 0x20040020, 4),
         (0x1A01, 0, 2, 1), (0x1801, 2, 1, 1), (0x1801, 1, 0x40000000 + SLOW_PDO, 4),
     ):
         assert master.write(index, sub, value, length) == 0, (hex(index), sub)
-    print("TPDO 2 remapped: velocity and inputs on", hex(SLOW_PDO))
+    print("TPDO 2 remapped: velocity and tick on", hex(SLOW_PDO))
 
 
 def velocity_loop(master, cycles):
@@ -168,6 +168,30 @@ def velocity_loop(master, cycles):
     print(f"velocity loop: {cycles} cycles with SYNC at 1 kHz, {late} begun late; error {rms * 1e3:.3f} mm/s rms of {amplitude / math.sqrt(2) * 1e3:.1f}")
     assert rms < 0.25 * amplitude / math.sqrt(2), "the loop does not follow"
     return torque
+
+
+def quick_stop(master):
+    """At full speed of a short push: the drive brakes, faster than friction would, and switches itself off at rest."""
+    counts_per_m = master.number(0x608F, 1) / (master.number(0x2003) * 1e-9)
+
+    def velocity():
+        return struct.unpack_from("<i", master.newest[SLOW_PDO])[0] / counts_per_m
+
+    for _ in range(12):
+        master.cycle(0x0F, 900)
+        master.wait_for(SLOW_PDO)
+        time.sleep(0.001)
+    began, first_tick = velocity(), struct.unpack_from("<I", master.newest[SLOW_PDO], 4)[0]
+    for _ in range(200):
+        status, _, torque = master.cycle(0x02)
+        master.wait_for(SLOW_PDO)
+        if status & 0x4F == 0x40:
+            break
+        time.sleep(0.001)
+    ticks = struct.unpack_from("<I", master.newest[SLOW_PDO], 4)[0] - first_tick
+    print(f"quick stop: from {began * 1e3:.1f} mm/s to rest and off in {ticks} ticks")
+    assert began > 0.03 and status & 0x4F == 0x40 and abs(velocity()) < 1e-3, (began, hex(status), velocity())
+    assert ticks < began / 9.81 / 1e-3 + 20, ticks
 
 
 def main():
@@ -205,8 +229,9 @@ def main():
     master.enable()
     assert 0 in master.emergencies, "EMCY 0000 after the reset"
     velocity_loop(master, options.cycles // 4)
+    print("recovered by fault reset, moved again")
+    quick_stop(master)
     master.go_to(0x00, 0x4F, 0x40)
-    print("recovered by fault reset, moved again, disabled")
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ class ScriptedPort final : public io::Port {
       request.sequence = static_cast<std::uint32_t>(tick_);
       request.arrival_ns = now_ns_;
       request.enable = true;
+      request.quick_stop = quick_stop;
     }
     return (std::uint64_t{1} << newest.size()) - 1;
   }
@@ -34,7 +35,7 @@ class ScriptedPort final : public io::Port {
     now_ns_ = tick.start_ns;
     last = axes[0];
   }
-  bool silent = false;
+  bool silent = false, quick_stop = false;
   double amplitude_Nm = 0.4;
   std::uint64_t reports = 0;
   io::AxisReport last;
@@ -56,6 +57,23 @@ struct Bench {
   std::atomic<bool> stop{false};
   std::unique_ptr<PlantLoop> loop;
 };
+
+TEST(PlantLoop, AQuickStopBrakesAndThenLeavesTheAxisAlone) {
+  Bench bench(1);
+  bench.run(200);
+  ASSERT_GT(std::abs(bench.port.last.velocity_m_per_s), 0.01);
+  bench.port.quick_stop = true;
+  bench.run(1);
+  EXPECT_EQ(bench.port.last.state, io::DriveState::quick_stop);
+  EXPECT_LT(bench.port.last.torque_Nm * bench.port.last.velocity_m_per_s, 0.0);
+  bench.run(200);
+  EXPECT_EQ(bench.port.last.ticks_done, 401U);
+  EXPECT_LT(std::abs(bench.port.last.velocity_m_per_s), 1e-6);
+  EXPECT_LT(std::abs(bench.port.last.torque_Nm), 1e-3);
+  bench.port.quick_stop = false;
+  bench.run(10);
+  EXPECT_EQ(bench.port.last.state, io::DriveState::enabled);
+}
 
 TEST(PlantLoop, TheTickDoesNotAllocate) {
   Bench bench(3);

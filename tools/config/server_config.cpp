@@ -208,6 +208,7 @@ io::PortContext ServerConfig::context() const {
   io::PortContext context;
   context.axes = static_cast<int>(axes.size());
   context.tick_s = loop.tick_s;
+  context.lockstep = pace == Pace::lockstep;
   for (const auto& axis : axes) {
     context.axis.push_back({axis.motor.rated_torque_Nm, axis.axis.lead_m, axis.axis.encoder_counts_per_rev});
   }

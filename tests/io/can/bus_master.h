@@ -40,7 +40,7 @@ class BusWithMaster {
       nodes.push_back(node.get());
       devices.push_back(std::move(node));
     }
-    port = std::make_unique<CanPort>(bus.connect(), std::move(devices), false);
+    port = std::make_unique<CanPort>(bus.connect(), std::move(devices), CanPortSettings{});
     master = bus.connect();
     port->open();
     tick();

@@ -69,7 +69,7 @@ TEST(ModbusPort, SequenceGoesOnBeyondSixteenBitsAndAFreshStartIsAFarJump) {
     const Bytes bytes = write_one(2, sequence);
     bank.write(check(bytes, bank.extent()), 0);
     AxisRequest request;
-    EXPECT_EQ(exchange.receive({&request, 1}), 1U);
+    EXPECT_EQ(exchange.requests().receive({&request, 1}), 1U);
     return request.sequence;
   };
   std::uint32_t last = written(1);
@@ -96,7 +96,7 @@ TEST(ModbusPort, AChangeBetweenTwoTicksIsNotLost) {
       bank.write(check(bytes, bank.extent()), 0);
     }
     AxisRequest request;
-    exchange.receive({&request, 1});
+    exchange.requests().receive({&request, 1});
     return request;
   };
   EXPECT_FALSE(write({1}).fault_reset);
@@ -106,7 +106,7 @@ TEST(ModbusPort, AChangeBetweenTwoTicksIsNotLost) {
   EXPECT_FALSE(write({1}).fault_reset) << "told once";
   EXPECT_TRUE(write({0, 1}).fault_reset) << "enable was taken away and given again";
   EXPECT_FALSE(write({1}).fault_reset);
-  EXPECT_EQ(exchange.superseded().value(), 3U);
+  EXPECT_EQ(exchange.requests().superseded().value(), 3U);
 }
 
 TEST(ModbusPort, TheReadBlockIsAlwaysOfOneTick) {
