@@ -100,6 +100,8 @@ nlohmann::json key_of(const Case& c, std::uint64_t seed) {
     number_only = number_only && h->number_only;
     alone = alone && identifiable(*h, c.channels);
   }
+  auto& held_out = key["holdout"] = nlohmann::json::object();
+  for (const auto& one : c.floors) held_out[one.channel] = {{"noise_floor", one.floor}, {"effect", one.effect}};
   key["alike"] = alike;
   key["identifiable"] = alone;
   key["tolerated"] = tolerated;

@@ -188,6 +188,13 @@ Case make_case(const Wish& wish) {
   c.nominal = spread_numbers(c.truth, c.wrong_by, random);
   c.masked = !c.hidden.empty() && chance(random, 0.4);
   if (c.masked) refit_nominal(c, with.numbers, without.numbers);
+  Axis plain = c.truth;
+  if (has("screw_compliance")) plain.coupling_N_per_m = 0.0;
+  const std::uint64_t noise_of_last = wish.seed * 101 + plans.size() - 1;
+  const Run without_effects =
+      has("screw_compliance") ? record(plain, {}, c.noise, gains, plans.back(), noise_of_last) : bare.back();
+  const Run again = record_again(c.truth, c.effects, c.noise, gains, plans.back(), wish.seed);
+  c.floors = floors_of(runs.back(), again, without_effects, c.channels);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const bool last = i + 1 == runs.size();
     std::string name = "run_" + kinds[i] + (last && kinds[i] == "dwell" ? "_again" : "") + ".csv";

@@ -7,6 +7,7 @@
 
 #include "tests/challenge/catalogue.h"
 #include "tests/challenge/closed_loop.h"
+#include "tests/challenge/repeat.h"
 
 namespace feedtwin::challenge {
 
@@ -34,6 +35,7 @@ struct Case {
   double wrong_by = 0.0;                    ///< spread of the nominal numbers
   bool masked = false;                      ///< nominal numbers were refitted to data that hold the effect
   double residual_N = 0.0, effect_N = 0.0;  ///< leftover without the effects, and what they add
+  std::vector<ChannelFloor> floors;         ///< of the held-out run
 };
 
 [[nodiscard]] Case make_case(const Wish& wish);

@@ -126,7 +126,8 @@ class MotorEncoder {
                             std::sin(e_.encoder_eccentricity.cycles_per_rev * angle + e_.encoder_eccentricity.phase_rad);
     const double turns = std::floor((angle - e_.count_angle_rad) / 6.283185307179586) + 1.0;
     const double lost_m = turns * e_.count_loss * count_m_;
-    const double read_m = counted(shaft_m + wobble_m + noise_.encoder_counts * count_m_ * hiss_.next(), count_m_) - lost_m;
+    const double noise_m = noise_.encoder_counts * count_m_ * hiss_.next(), phase_m = noise_.grid_phase_counts * count_m_;
+    const double read_m = counted(shaft_m + wobble_m + noise_m + phase_m, count_m_) - phase_m - lost_m;
     return read_m / e_.lead_factor;
   }
 

@@ -78,10 +78,11 @@ struct Effects {
 /// Sensors' imperfections.
 struct Noise {
   double torque_sensor_Nm = 5e-4, force_sensor_N = 0.05, encoder_counts = 0.0;
-  double colour = 0.0;          ///< share of the last sample in the next, sensors
-  double burst_share = 0.0;     ///< share of time at five times the noise
-  double disturbance_N = 0.0;   ///< rms of a coloured force on the screw
-  double disturbance_s = 0.01;  ///< its correlation time
+  double colour = 0.0;             ///< share of the last sample in the next, sensors
+  double burst_share = 0.0;        ///< share of time at five times the noise
+  double disturbance_N = 0.0;      ///< rms of a coloured force on the screw
+  double disturbance_s = 0.01;     ///< its correlation time
+  double grid_phase_counts = 0.0;  ///< where the encoder's grid stands against the axis at rest
 };
 
 /// One sample of a run, as the sensors show it; `true_` are for the generator's own bookkeeping.
