@@ -2,7 +2,7 @@
 // The law of the cascade, for one axis (double) or several at a time (a lane each).
 //
 //   v_wanted = K_v (x_ref - x) + k_vff v_ref,   v = (x_k - x_k-n) / (n T)
-//   F = K_p (v_wanted - v) + K_i int(v_wanted - v) dt + M_ff a_ref + B_ff v_ref + F_ff sgn v_ref,   limited, with
+//   F = K_p (v_wanted - v) + K_i int(v_wanted - v) dt + M_ff a_ref + B_ff v_ref + F_ff sgn v_ref + F_ref,   limited, with
 //   anti-windup
 
 #include <algorithm>
@@ -72,7 +72,7 @@ class CascadeLaw {
     const double v = reference.velocity_m_per_s;
     const double friction_N = v == 0.0 ? 0.0 : std::copysign(gains_.friction_feedforward_N, v);
     return gains_.acceleration_feedforward_kg * reference.acceleration_m_per_s2 + gains_.viscous_feedforward_Ns_per_m * v +
-           friction_N;
+           friction_N + reference.force_N;
   }
   static constexpr int longest_window = 4;
   static Real limited(Real value, Real low, Real high) noexcept {

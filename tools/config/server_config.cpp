@@ -12,7 +12,10 @@
 #include "tools/config/axis_file.h"
 #include "tools/config/input_error.h"
 #include "tools/config/toml_settings.h"
+#include "tools/loopback/recorded_path.h"
+#include "tools/loopback/tracking_gains.h"
 #include "tools/machine/job_keys.h"
+#include "tools/recording/csv.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -67,7 +70,21 @@ double viscous_Ns_per_m(const plant::AxisParameters& axis) {
   return mean(axis.motor.damping_Nms) * k * k + mean(axis.ball_screw.viscous_Ns_per_m) + mean(axis.guide.viscous_Ns_per_m);
 }
 
-/// The loopback controller's presets follow the axis: its mass, lead, torque limit and stroke.
+/// They follow the axis: its mass, friction, lead and torque limit.
+controllers::CascadeGains presets_of(const plant::AxisParameters& axis) {
+  const double mass_kg = plant::make_axis_model(axis).mass_kg;
+  return {.position_per_s = 150.0,
+          .velocity_Ns_per_m = 400.0 * mass_kg,
+          .velocity_integral_N_per_m = 4.0e4 * mass_kg,
+          .velocity_feedforward = 1.0,
+          .acceleration_feedforward_kg = mass_kg,
+          .friction_feedforward_N = coulomb_N(axis),
+          .viscous_feedforward_Ns_per_m = viscous_Ns_per_m(axis),
+          .current_loop_time_constant_s = 0.0,
+          .torque_limit_Nm = axis.axis.torque_limit_Nm,
+          .lead_m = axis.axis.lead_m};
+}
+
 LoopbackSettings loopback_of(TomlFile& file, const std::string& table, const plant::AxisParameters& axis) {
   const auto at = [&table](const char* key) { return table + "." + key; };
   LoopbackSettings settings;
@@ -89,18 +106,26 @@ LoopbackSettings loopback_of(TomlFile& file, const std::string& table, const pla
   motion.steps = static_cast<int>(file.integer(at("steps"), 2, 1000, 10));
   motion.hold_s = file.number(at("hold_s"), 0.0, 1e3, 0.4);
 
-  const double mass_kg = plant::make_axis_model(axis).mass_kg;
+  bool stands_in = false;
+  if (const auto recording = file.text(at("recording")); settings.motion->of_recording) {
+    if (!recording) file.fail(at("motion"), "a recorded motion needs the key recording: a CSV file beside this one");
+    const auto beside = std::filesystem::path(file.path()).parent_path() / *recording;
+    const Recording run = recording_from(read_csv(beside.string()), {});
+    stands_in = !run.has(channel::reference_m);
+    motion.path = stands_in ? recorded_motion_path(run, axis.axis.lead_m) : recorded_reference(run);
+  }
+
   auto& gains = settings.gains;
-  gains.lead_m = axis.axis.lead_m;
-  gains.torque_limit_Nm = axis.axis.torque_limit_Nm;
-  gains.position_per_s = file.number(at("position_per_s"), 0.0, 1e4, 150.0);
-  gains.velocity_Ns_per_m = file.number(at("velocity_Ns_per_m"), 0.0, 1e9, 400.0 * mass_kg);
-  gains.velocity_integral_N_per_m = file.number(at("velocity_integral_N_per_m"), 0.0, 1e12, 4.0e4 * mass_kg);
-  gains.velocity_feedforward = file.number(at("velocity_feedforward"), 0.0, 2.0, 1.0);
-  gains.acceleration_feedforward_kg = file.number(at("acceleration_feedforward_kg"), 0.0, 1e5, mass_kg);
-  gains.friction_feedforward_N = file.number(at("friction_feedforward_N"), 0.0, 1e6, coulomb_N(axis));
-  gains.viscous_feedforward_Ns_per_m = file.number(at("viscous_feedforward_Ns_per_m"), 0.0, 1e7, viscous_Ns_per_m(axis));
-  gains.current_loop_time_constant_s = file.number(at("current_loop_time_constant_s"), 0.0, 1.0, 0.0);
+  gains = stands_in ? stand_in_gains(axis) : presets_of(axis);
+  const auto take = [&](const char* key, double highest, double& gain) { gain = file.number(at(key), 0.0, highest, gain); };
+  take("position_per_s", 1e4, gains.position_per_s);
+  take("velocity_Ns_per_m", 1e9, gains.velocity_Ns_per_m);
+  take("velocity_integral_N_per_m", 1e12, gains.velocity_integral_N_per_m);
+  take("velocity_feedforward", 2.0, gains.velocity_feedforward);
+  take("acceleration_feedforward_kg", 1e5, gains.acceleration_feedforward_kg);
+  take("friction_feedforward_N", 1e6, gains.friction_feedforward_N);
+  take("viscous_feedforward_Ns_per_m", 1e7, gains.viscous_feedforward_Ns_per_m);
+  take("current_loop_time_constant_s", 1.0, gains.current_loop_time_constant_s);
   return settings;
 }
 

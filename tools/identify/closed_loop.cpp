@@ -8,19 +8,6 @@
 namespace feedtwin::tools {
 namespace {
 
-/// Position with its derivatives, as an interpolator would have them: from the parabola through a row and its neighbours.
-std::vector<controllers::Reference> with_derivatives(std::span<const double> position_m, double tick_s) {
-  std::vector<controllers::Reference> all(position_m.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::size_t middle = std::clamp<std::size_t>(i, 1, all.size() - 2);
-    const double before = position_m[middle - 1], now = position_m[middle], after = position_m[middle + 1];
-    const double acceleration = (after - 2.0 * now + before) / (tick_s * tick_s);
-    const double off_s = (static_cast<double>(i) - static_cast<double>(middle)) * tick_s;
-    all[i] = {position_m[i], (after - before) / (2.0 * tick_s) + acceleration * off_s, acceleration};
-  }
-  return all;
-}
-
 /// Speed at the first row; 0 where the first step is within the encoder's rounding.
 double start_velocity(std::span<const double> position_m, const plant::AxisParameters& nominal, double tick_s) {
   const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
@@ -36,6 +23,18 @@ double drive_power_W(const plant::MotorParameters& motor, double force_N, double
 }
 
 }  // namespace
+
+std::vector<controllers::Reference> with_derivatives(std::span<const double> position_m, double tick_s) {
+  std::vector<controllers::Reference> all(position_m.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t middle = std::clamp<std::size_t>(i, 1, all.size() - 2);
+    const double before = position_m[middle - 1], now = position_m[middle], after = position_m[middle + 1];
+    const double acceleration = (after - 2.0 * now + before) / (tick_s * tick_s);
+    const double off_s = (static_cast<double>(i) - static_cast<double>(middle)) * tick_s;
+    all[i] = {position_m[i], (after - before) / (2.0 * tick_s) + acceleration * off_s, acceleration};
+  }
+  return all;
+}
 
 plant::AxisParameters without_stops(plant::AxisParameters parameters) {
   parameters.axis.end_stop_stiffness_N_per_m = 0.0;  // the stroke itself stays: friction may vary along it

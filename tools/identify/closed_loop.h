@@ -5,6 +5,7 @@
 // Conventions of a recording's row k, at t = k T: positions, torque and force sensor are of that instant, the sensors with
 // command k acting; command k is held until row k + 1; the power meter is read at the end of that tick.
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,9 @@
 #include "tools/recording/case.h"
 
 namespace feedtwin::tools {
+
+/// Position with its derivatives, as an interpolator would have them: from the parabola through a row and its neighbours.
+[[nodiscard]] std::vector<controllers::Reference> with_derivatives(std::span<const double> position_m, double tick_s);
 
 /// A recording made ready for closed-loop simulation. Refers to the recording, which must outlive it.
 class ClosedLoopRun {

@@ -26,6 +26,10 @@ PlantRun::PlantRun(ServerConfig config, std::uint64_t ticks) : config_(std::move
     if (ticks == 0) config_.loop.ticks = program_->ticks();
   }
   if (config_.controller == "loopback") loopback_ = std::make_unique<LoopbackPort>(config_.loopback, config_.context());
+  if (loopback_ && !axes_.empty()) {
+    for (std::size_t i = 0; i < axes_.size(); ++i)  // a recording begins where it begins
+      if (config_.loopback[i].motion->of_recording) axes_[i].place(loopback_->reference_m(i, 0));
+  }
   if (auto own = faults_of(config_.faults, config_.controller); inner_controller() != nullptr && !own.empty()) {
     faulty_inner_ = std::make_unique<io::faults::FaultPort>(*inner_controller(), std::move(own), config_.context());
   }

@@ -218,5 +218,24 @@ TEST_F(ServerConfigFile, AMachineFileMakesThePlantAMachineTool) {
             std::string::npos);
 }
 
+TEST_F(ServerConfigFile, ARecordedMotionFollowsItsFileAndSaysWhatIsMissing) {
+  write_whole_file((folder_ / "run.csv").string(),
+                   "time_s,torque_cmd_Nm,position_m\n0,0.1,0.5\n0.001,0.2,0.501\n0.002,0.3,0.503\n");
+  const auto config = read_server_config({.path = write("[server]\ncontroller = \"loopback\"\n[loopback]\nmotion = "
+                                                        "\"recorded\"\nrecording = \"run.csv\"\n")});
+  const auto motion = config.loopback.at(0).motion->make(config.loopback[0].motion_settings);
+  EXPECT_EQ(motion->at(0.0).position_m, 0.501) << "what is asked for in one tick acts in the next";
+  EXPECT_EQ(config.loopback[0].gains.acceleration_feedforward_kg, 0.0) << "the recorded command holds the inertia's force";
+  for (const auto& [keys, word] : std::vector<std::pair<std::string, std::string>>{
+           {"motion = \"recorded\"\n", "recording"}, {"motion = \"recorded\"\nrecording = \"gone.csv\"\n", "gone.csv"}}) {
+    try {
+      (void)read_server_config({.path = write("[loopback]\n" + keys)});
+      ADD_FAILURE() << "took " << keys;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace feedtwin::tools
