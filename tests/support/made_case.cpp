@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "plant/effects/registry.h"
 #include "plant/feed_axis.h"
 #include "tools/config/input_error.h"
 
@@ -46,7 +47,8 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
     push(channel::position_m, position_m);
     push(channel::reference_m, reference.position_m);
     if (run.sensors) {
-      push(channel::scale_position_m, run.quantised ? std::round(position_m * 1e8) * 1e-8 : position_m);
+      const double scale_m = run.scale_at_table ? signals.scale_position_m : position_m;
+      push(channel::scale_position_m, run.quantised ? std::round(scale_m * 1e8) * 1e-8 : scale_m);
       const auto sensors = axis.force_sensors({.torque_Nm = torque_Nm});
       push(channel::torque_sensor_Nm,
            on_grid(sensors.torque_sensor_Nm + run.torque_noise_Nm * unit(random), run.torque_grid_Nm));
@@ -62,6 +64,27 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
     }
   }
   return recording;
+}
+
+plant::EffectSetting effect(std::string_view id, std::initializer_list<std::pair<std::string_view, double>> values) {
+  const auto* entry = plant::find_effect(id);
+  auto made = plant::preset_of(*entry);
+  for (const auto& [name, value] : values) *plant::value_in(made, *entry, name) = value;
+  return made;
+}
+
+tools::Case short_case(const plant::AxisParameters& truth, const plant::AxisParameters& nominal) {
+  tools::Case data;
+  data.axis = nominal;
+  const auto run = [&truth](const char* motion, double speed, double amplitude, unsigned seed) {
+    MadeRun made{.motion = motion, .duration_s = 3.0, .sensors = false, .seed = seed};
+    made.settings.speed_m_per_s = speed;
+    made.settings.amplitude_m = amplitude;
+    return make_recording(truth, made);
+  };
+  data.fit = {run("sine", 0.08, 0.02, 1), run("s_curve", 0.05, 0.015, 2)};
+  data.holdout = {run("triangle", 0.03, 0.012, 3)};
+  return data;
 }
 
 ScratchFolder::ScratchFolder(std::string_view name)

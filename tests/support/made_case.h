@@ -3,15 +3,17 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "controllers/cascade.h"
 #include "controllers/motion.h"
 #include "plant/integrator.h"
 #include "plant/parameter_table.h"
 #include "plant/parameters.h"
-#include "tools/recording/recording.h"
+#include "tools/recording/case.h"
 
 namespace feedtwin::tests {
 
@@ -22,6 +24,7 @@ struct MadeRun {
   double duration_s = 2.0;
   bool sensors = true;  ///< scale, torque, force, power
   bool quantised = true;
+  bool scale_at_table = false;                        ///< the scale shows the table itself, not what the encoder shows
   double torque_noise_Nm = 0.0, force_noise_N = 0.0;  ///< of the two sensors
   double torque_grid_Nm = 0.0, force_grid_N = 0.0;    ///< of their converter; 0: none
   double power_noise_W = 0.0, power_grid_W = 0.0;     ///< of the meter's readings
@@ -31,6 +34,13 @@ struct MadeRun {
 
 [[nodiscard]] tools::Recording make_recording(const plant::AxisParameters& axis, const MadeRun& run,
                                               const controllers::CascadeGains& gains = {});
+
+/// An effect of the plant with these numbers, the others at their presets.
+[[nodiscard]] plant::EffectSetting effect(std::string_view id,
+                                          std::initializer_list<std::pair<std::string_view, double>> values);
+
+/// Two short runs to learn from and one to prove it on, without sensors beside the encoder.
+[[nodiscard]] tools::Case short_case(const plant::AxisParameters& truth, const plant::AxisParameters& nominal);
 
 /// A folder below the test's temporary one, gone with the object.
 class ScratchFolder {

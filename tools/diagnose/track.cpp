@@ -165,4 +165,13 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   return track;
 }
 
+std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis) {
+  std::vector<Track> tracks;
+  for (const auto& recording : recordings) {
+    tracks.push_back(make_track(recording, axis));
+    tracks.back().run = tracks.size() - 1;
+  }
+  return tracks;
+}
+
 }  // namespace feedtwin::tools::diagnosis

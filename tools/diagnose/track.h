@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "plant/parameters.h"
 #include "tools/recording/recording.h"
@@ -55,6 +56,8 @@ struct Track {
 };
 
 [[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);
+/// Of the runs of a case, each with its place among them.
+[[nodiscard]] std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis);
 
 /// Mean over the sample before and the sample after: from forces over a sample to forces about it.
 [[nodiscard]] Vector about_sample(const Vector& after);

@@ -18,28 +18,6 @@ namespace {
 
 using tools::diagnosis::Diagnosis;
 
-plant::EffectSetting setting(std::string_view id, std::initializer_list<std::pair<std::string_view, double>> values) {
-  const auto* entry = plant::find_effect(id);
-  auto made = plant::preset_of(*entry);
-  for (const auto& [name, value] : values) *plant::value_in(made, *entry, name) = value;
-  return made;
-}
-
-/// Two short runs to learn from and one to prove it on, without sensors beside the encoder.
-tools::Case made_case(const plant::AxisParameters& truth, const plant::AxisParameters& nominal) {
-  tools::Case data;
-  data.axis = nominal;
-  const auto run = [&truth](const char* motion, double speed, double amplitude, unsigned seed) {
-    tests::MadeRun made{.motion = motion, .duration_s = 3.0, .sensors = false, .seed = seed};
-    made.settings.speed_m_per_s = speed;
-    made.settings.amplitude_m = amplitude;
-    return tests::make_recording(truth, made);
-  };
-  data.fit = {run("sine", 0.08, 0.02, 1), run("s_curve", 0.05, 0.015, 2)};
-  data.holdout = {run("triangle", 0.03, 0.012, 3)};
-  return data;
-}
-
 plant::AxisParameters off_by_some_percent() {
   auto nominal = plant::source_axis();
   nominal.motor.inertia_kgm2 *= 1.05;
@@ -50,7 +28,7 @@ plant::AxisParameters off_by_some_percent() {
 }
 
 Diagnosis diagnosed(const plant::AxisParameters& truth) {
-  return tools::diagnosis::diagnose(made_case(truth, off_by_some_percent()), [](std::string_view) {});
+  return tools::diagnosis::diagnose(tests::short_case(truth, off_by_some_percent()), [](std::string_view) {});
 }
 
 std::string ids_of(const Diagnosis& found) {
@@ -75,7 +53,7 @@ TEST(Diagnosis, WrongNumbersAreRecalibratedAndNothingIsNamed) {
 
 TEST(Diagnosis, CoggingIsNamedAloneWithItsSizeAndTheUpdatedAxisHoldsIt) {
   auto truth = plant::source_axis();
-  truth.effects.push_back(setting("cogging", {{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}, {"phase_rad", 0.7}}));
+  truth.effects.push_back(tests::effect("cogging", {{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}, {"phase_rad", 0.7}}));
   const auto found = diagnosed(truth);
   EXPECT_EQ(found.verdict, "named");
   ASSERT_EQ(ids_of(found), "cogging ");
@@ -97,7 +75,7 @@ TEST(Diagnosis, CoggingIsNamedAloneWithItsSizeAndTheUpdatedAxisHoldsIt) {
 
 TEST(Diagnosis, TheSameRecordingGivesTheSameAnswer) {
   auto truth = plant::source_axis();
-  truth.effects.push_back(setting("current_loop_lag", {{"time_constant_s", 2e-3}}));
+  truth.effects.push_back(tests::effect("current_loop_lag", {{"time_constant_s", 2e-3}}));
   const auto first = diagnosed(truth), second = diagnosed(truth);
   EXPECT_EQ(tools::diagnosis::to_json(first, "a").dump(), tools::diagnosis::to_json(second, "a").dump());
   EXPECT_NE(ids_of(first).find("current_loop_lag"), std::string::npos) << ids_of(first);

@@ -31,28 +31,10 @@ Active cogging(double sine_Nm) {
 Case made_case(double sine_Nm) {
   const auto truth =
       extended({plant::source_axis(), sine_Nm == 0.0 ? std::vector<Active>{} : std::vector{cogging(sine_Nm)}});
-  Case data;
-  data.axis = plant::source_axis();
-  data.axis.motor.inertia_kgm2 *= 1.05;
-  data.axis.ball_screw.coulomb_N.pos *= 0.94;
-  const auto run = [&truth](const char* motion, double speed, double amplitude, unsigned seed) {
-    tests::MadeRun made{.motion = motion, .duration_s = 3.0, .sensors = false, .seed = seed};
-    made.settings.speed_m_per_s = speed;
-    made.settings.amplitude_m = amplitude;
-    return tests::make_recording(truth, made);
-  };
-  data.fit = {run("sine", 0.08, 0.02, 1), run("s_curve", 0.05, 0.015, 2)};
-  data.holdout = {run("triangle", 0.03, 0.012, 3)};
-  return data;
-}
-
-InverseModel inverse_model(const Case& data) {
-  std::vector<Track> tracks;
-  for (const auto& recording : data.fit) {
-    tracks.push_back(make_track(recording, data.axis));
-    tracks.back().run = tracks.size() - 1;
-  }
-  return {std::move(tracks), data.axis};
+  auto nominal = plant::source_axis();
+  nominal.motor.inertia_kgm2 *= 1.05;
+  nominal.ball_screw.coulomb_N.pos *= 0.94;
+  return tests::short_case(truth, nominal);
 }
 
 TEST(ForwardModel, TheAxisThatMadeARunLeavesTheNoiseFloorAndAWrongOneMore) {
@@ -67,7 +49,7 @@ TEST(ForwardModel, TheAxisThatMadeARunLeavesTheNoiseFloorAndAWrongOneMore) {
 
 TEST(ForwardModel, PolishingBringsABiasedStartToTheTruthWithinItsInterval) {
   const Case data = made_case(amplitude_Nm);
-  const InverseModel model = inverse_model(data);
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
   const auto polished = polish(ForwardModel(data.fit, data), fitter, {data.axis, {cogging(1.1 * amplitude_Nm)}});
   const double found = polished.model.effects[0].q[0];
@@ -80,7 +62,7 @@ TEST(ForwardModel, PolishingBringsABiasedStartToTheTruthWithinItsInterval) {
 TEST(ForwardModel, ConfirmsWhatIsThereAndNotWhatIsNot) {
   for (const double there_Nm : {amplitude_Nm, 0.0}) {
     const Case data = made_case(there_Nm);
-    const InverseModel model = inverse_model(data);
+    const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
     const Fitter fitter(model, data.axis);
     const auto whitening = Whitening::estimate(model, model.residual(plant::source_axis(), {}));
     const Fit fit = fitter.fit({data.axis, {cogging(0.001)}}, whitening, 6);

@@ -1,0 +1,170 @@
+// Every hypothesis of the registry against the plant: with its effect switched on in closed loop, fitted alone, it comes
+// back with the sign and the numbers that the plant was given. The nominal numbers float, but where they can nearly do what
+// the effect does: those laws are asked with the numbers known.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "plant/effects/registry.h"
+#include "tests/support/made_case.h"
+#include "tools/diagnose/fit.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+struct Trial {
+  std::vector<std::pair<std::string_view, double>> truth;  ///< numbers of the plant's effect
+  std::vector<double> start;                               ///< working parameters: amplitudes at 0, shapes about the truth
+  double tolerance = 0.03;
+  bool sensors = true;  ///< of torque and force; false: where the plant simplifies what they see
+  bool known_numbers = false;
+};
+
+const std::map<std::string_view, Trial>& trials() {
+  static const std::map<std::string_view, Trial> all{
+      {"cogging", {{{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}, {"phase_rad", 0.7}}, {0, 0, 8}}},
+      {"torque_ripple", {{{"relative_amplitude", 0.05}, {"cycles_per_rev", 6.0}, {"phase_rad", -1.1}}, {0, 0, 6}}},
+      {"rev_ripple", {{{"amplitude_N", 5.0}, {"cycles_per_rev", 3.37}, {"phase_rad", 2.0}}, {0, 0, 3.375}}},
+      {"backlash", {{{"gap_m", 6e-6}, {"stiffness_N_per_m", 2e9}}, {0}}},
+      {"screw_compliance", {{{"stiffness_N_per_m", 3e7}}, {0}}},
+      {"position_friction", {{{"relative_slope_per_half_stroke", -0.4}}, {0}}},
+      {"copper_loss", {{{"coefficient_W_per_Nm2", 15.0}}, {0}, 0.06, true, true}},
+      {"payload", {{{"mass_kg", 3.0}}, {0}, 0.03, true, true}},
+      {"cable_spring", {{{"stiffness_N_per_m", 500.0}, {"neutral_m", 0.006}}, {0, 0}}},
+      {"current_loop_lag", {{{"time_constant_s", 2e-3}}, {0}}},
+      {"input_delay", {{{"delay_s", 2e-3}}, {0}}},
+      {"thermal_friction", {{{"viscous_reduction", 0.3}, {"energy_scale_J", 6.0}}, {0, 5}}},
+      {"friction_drift", {{{"relative_change", -0.3}, {"time_constant_s", 1.2}}, {0, 1}}},
+      {"torque_gain_error", {{{"relative_error", -0.1}}, {0}, 0.03, true, true}},
+      {"torque_offset", {{{"offset_Nm", 0.012}}, {0}, 0.03, true, true}},
+      {"gravity", {{{"force_N", -15.0}}, {0}, 0.03, true, true}},
+      {"quadratic_drag", {{{"coefficient_Ns2_per_m2", 3000.0}}, {0}}},
+      {"sublinear_viscous", {{{"exponent", 0.7}}, {0}}},
+      {"direction_dependent_friction",
+       {{{"coulomb_difference_N", 12.0}, {"viscous_difference_Ns_per_m", -300.0}}, {0, 0}, 0.03, true, true}},
+      {"lead_error", {{{"relative_error", -1e-4}}, {0, 0}}},
+      {"cyclic_lead_error", {{{"amplitude_m", 2e-6}, {"cycles_per_rev", 1.0}, {"phase_rad", 0.7}}, {0, 0, 1}}},
+      {"encoder_eccentricity", {{{"amplitude_m", 6e-6}, {"phase_rad", 0.7}}, {0, 0}}},
+      {"frictional_lag", {{{"time_constant_s", 0.012}}, {0}, 0.07, false}},
+      {"local_friction", {{{"height_N", 15.0}, {"centre_m", 0.004}, {"half_width_m", 0.002}}, {0, 0.0038, 0.002}, 0.08}},
+      {"dwell_breakaway", {{{"relative_rise", 0.4}, {"time_constant_s", 0.06}}, {0, 0.05}, 0.25}},
+      {"regeneration_clipped", {{{"share", 1.0}}, {0}}},
+      {"sensor_gain", {{{"torque_sensor_gain", 1.1}, {"force_sensor_gain", 0.92}}, {0, 0}, 0.03, true, true}},
+      {"channel_skew", {{{"torque_sensor_delay_s", 3e-3}, {"force_sensor_delay_s", 2e-3}}, {0, 0}}},
+      {"torque_saturation", {{{"limit_Nm", 0.7}}, {0, 0.68}}},
+      {"floor_vibration", {{{"acceleration_m_per_s2", 2.0}, {"frequency_Hz", 17.03}}, {0, 0, 0, 0, 0, 0, 0, 0, 17.0}}},
+      {"hidden_friction_compensation", {{{"torque_Nm", 0.02}, {"speed_m_per_s", 1e-3}}, {0, 1e-3}, 0.06, true, true}},
+      {"process_force", {{{"amplitude_N", 8.0}, {"frequency_Hz", 60.04}}, {0, 0, 0, 0, 0, 0, 0, 0, 60.0}}},
+      {"hard_stop",
+       {{{"position_m", 0.0194}, {"direction", 1.0}, {"stiffness_N_per_m", 3e5}, {"damping_Ns_per_m", 2000.0}},
+        {0, 0, 0.0193, 1}}},
+      {"count_loss", {{{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}, {0, 2.1}}},
+      {"screw_growth", {{{"relative_growth", 1e-4}, {"time_constant_s", 1.5}}, {0, 2}}},
+      {"load_dependent_friction", {{{"friction_per_load", 0.3}}, {0}}},
+      {"presliding_memory", {{{"force_N", 80.0}, {"distance_m", 2e-5}}, {0, 3e-5}}},
+  };
+  return all;
+}
+
+/// Fast and jerky, and slow over a longer way with rests at its ends.
+std::vector<tools::Recording> runs_of(const plant::AxisParameters& truth, bool sensors) {
+  const auto run = [&](const char* motion, controllers::MotionSettings settings, unsigned seed) {
+    return tests::make_recording(truth, {.motion = motion,
+                                         .settings = settings,
+                                         .duration_s = 2.0,
+                                         .sensors = sensors,
+                                         .scale_at_table = true,
+                                         .torque_noise_Nm = 5e-4,
+                                         .force_noise_N = 0.05,
+                                         .seed = seed});
+  };
+  return {run("sine", {.amplitude_m = 0.02, .speed_m_per_s = 0.11}, 1), run("s_curve",
+                                                                            {.amplitude_m = 0.012,
+                                                                             .speed_m_per_s = 0.06,
+                                                                             .acceleration_m_per_s2 = 8.0,
+                                                                             .jerk_m_per_s3 = 800.0,
+                                                                             .dwell_s = 0.15},
+                                                                            2)};
+}
+
+plant::EffectSetting setting_of(std::string_view id, const Trial& trial) {
+  const auto* entry = plant::find_effect(id);
+  auto setting = plant::preset_of(*entry);
+  for (const auto& [name, value] : trial.truth) *plant::value_in(setting, *entry, name) = value;
+  return setting;
+}
+
+class EveryHypothesis : public testing::TestWithParam<std::string_view> {};
+
+/// The noise's own colour, from the same runs without any effect.
+const Whitening& whitening_of(bool sensors) {
+  const auto made = [](bool with) {
+    const InverseModel model(make_tracks(runs_of(plant::source_axis(), with), plant::source_axis()), plant::source_axis());
+    return Whitening::estimate(model, model.residual(plant::source_axis(), {}));
+  };
+  static const Whitening with = made(true), without = made(false);
+  return sensors ? with : without;
+}
+
+/// Gauss-Newton on the effect's own numbers alone.
+Candidate fit_alone(const InverseModel& model, const Whitening& whitening, Candidate at) {
+  auto& q = at.effects[0].q;
+  const auto& parameters = at.effects[0].hypothesis->parameters;
+  const auto left = [&] { return whitening.applied(model, model.residual(at.axis, at.effects)); };
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    const Vector now = left();
+    Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(now.size(), static_cast<Index>(q.size()));
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      if (parameters[j].kind == Kind::fixed) continue;
+      const double kept = q[j];
+      q[j] += parameters[j].step;
+      slope.col(static_cast<Index>(j)) = (left() - now) / parameters[j].step;
+      q[j] = kept;
+    }
+    const Eigen::VectorXd step = slope.colPivHouseholderQr().solve(-now);
+    for (std::size_t j = 0; j < q.size(); ++j)
+      q[j] = std::clamp(q[j] + step[static_cast<Index>(j)], parameters[j].lowest, parameters[j].highest);
+  }
+  return at;
+}
+
+TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
+  ASSERT_TRUE(trials().contains(GetParam())) << "no trial of this hypothesis";
+  const Trial& trial = trials().at(GetParam());
+  auto truth = plant::source_axis(), nominal = truth;
+  truth.effects.push_back(setting_of(GetParam(), trial));
+  if (!trial.known_numbers) {
+    nominal.motor.inertia_kgm2 *= 1.03;
+    nominal.ball_screw.viscous_Ns_per_m.neg *= 0.97;
+  }
+  const InverseModel model(make_tracks(runs_of(truth, trial.sensors), nominal), nominal);
+  const Candidate start{nominal, {{&hypothesis(GetParam()), trial.start}}};
+  const Whitening& whitening = whitening_of(trial.sensors);
+  const Candidate fitted =
+      trial.known_numbers ? fit_alone(model, whitening, start) : Fitter(model, nominal).fit(start, whitening, 10).model;
+  const auto found = fitted.effects[0].hypothesis->named(fitted.effects[0].q, fitted.axis);
+  for (const auto& [name, value] : trial.truth) {
+    const auto own = std::ranges::find(found, name, &NamedValue::name);
+    if (own == found.end()) continue;  // a number that the hypothesis leaves at its preset
+    const double allowed = name.ends_with("_rad") ? 0.06 : trial.tolerance * std::abs(value);
+    EXPECT_NEAR(own->value, value, allowed) << name;
+  }
+}
+
+std::vector<std::string_view> ids() {
+  std::vector<std::string_view> all;
+  for (const auto& one : hypotheses()) all.push_back(one.id);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryHypothesis, testing::ValuesIn(ids()),
+                         [](const auto& chosen) { return std::string(chosen.param); });
+
+}  // namespace
+}  // namespace feedtwin
