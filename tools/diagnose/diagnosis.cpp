@@ -11,7 +11,6 @@
 #include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
-#include "tools/diagnose/next_experiment.h"
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/sentence.h"
 #include "tools/diagnose/verdict.h"
@@ -26,15 +25,6 @@ constexpr double smallest_share_held_out = 0.35;
 constexpr double least_error_ratio = 1.02;
 constexpr double least_gain_of_a_table = 0.98;  // closed loop, runs of the fit: else the table stays out of the model
 constexpr double smallest_remainder_N = 1.0;
-
-InverseModel model_of(const std::vector<Recording>& recordings, const plant::AxisParameters& axis) {
-  std::vector<Track> tracks;
-  for (const auto& recording : recordings) {
-    tracks.push_back(make_track(recording, axis));
-    tracks.back().run = tracks.size() - 1;
-  }
-  return {std::move(tracks), axis};
-}
 
 /// What an encoder shows wrongly is in its counts; the simulated loop is closed over the true angle.
 bool shown_by_counts_alone(std::string_view id) {
@@ -88,6 +78,18 @@ Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResul
   return told;
 }
 
+void plan_next(Diagnosis& result, const Evidence& seen, const std::function<void(std::string_view)>& progress) {
+  const auto open = std::ranges::find_if(result.effects, [](const NamedEffect& e) { return !e.alternatives.empty(); });
+  if (open != result.effects.end()) {
+    result.next = plan_to_separate(seen, *open->hypothesis, open->alternatives, progress);
+    open->sentence += next_move_of(result.next);
+  } else if (result.verdict == "cannot-tell") {
+    std::vector<Candidate> models;
+    for (const auto& suspect : result.suspects) models.push_back(suspect.model);
+    result.next = plan_to_prove(seen, models, progress);
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)>& progress) {
@@ -96,7 +98,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   result.setup = mend_setup(data);
   for (const auto& fault : result.setup) progress(fault.sentence);
   progress("following friction along " + std::to_string(data.fit.size()) + " runs");
-  const InverseModel model = model_of(data.fit, data.axis);
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   for (auto& fault : check_meter(model.tracks().front(), data.axis)) result.setup.push_back(std::move(fault));
   const Fitter fitter(model, data.axis);
   SearchResult found = search(fitter, Bar{}, progress);
@@ -128,12 +130,13 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   std::vector<plant::AxisParameters> ways{extended(fit.model, worth_naming), extended(fit.model)};
   if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model));
   result.updated = ways[closest(forward, ways)];
+  if (!anything_missing(result)) result.suspects = suspects(fitter, found, fit, Bar{}, progress);
   result.verdict = verdict_of(result);
   result.detection_limit_N = 0.2 * std::max(Bar{}.force_N, found.whitening.residual_rms(0));
 
   progress("figures on what the fit did not see");
   const Candidate nominal{data.axis, {}};
-  const InverseModel held_out = model_of(unseen, data.axis);
+  const InverseModel held_out(make_tracks(unseen, data.axis), data.axis);
   Candidate told = fit.model;
   if (unknown) told = only_what_the_force_does_not_show(result, found, fit.model);
   const Learned learned = learn_remainder(model, held_out, told);
@@ -142,6 +145,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   const bool repeats = learned.share_held_out > smallest_share_held_out && learned.remainder_N > smallest_remainder_N;
   if (unknown || (repeats && !anything_missing(result))) {
     result.verdict = "unknown";
+    result.suspects.clear();
     result.unknown = learned;
     result.updated = extended(told, worth_naming);
     auto with_table = result.updated;
@@ -159,7 +163,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
       pictures(simulated, held_out.tracks(), {data.axis, extended(found.recalibrated.model), result.updated}, named);
   result.energy_before = energy(held_out, nominal);
   result.energy_after = energy(held_out, told);
-  plan_next(result);
+  plan_next(result, {data, forward, fitter, found.whitening, told}, progress);
   result.summary = summary_of(result);
   return result;
 }

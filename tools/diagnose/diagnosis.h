@@ -11,8 +11,10 @@
 #include "plant/parameters.h"
 #include "tools/diagnose/figures.h"
 #include "tools/diagnose/learned.h"
+#include "tools/diagnose/planning/next_experiment.h"
 #include "tools/diagnose/search.h"
 #include "tools/diagnose/setup_checks.h"
+#include "tools/diagnose/suspects.h"
 #include "tools/recording/case.h"
 #include "tools/report/figure.h"
 
@@ -50,8 +52,8 @@ struct Diagnosis {
   std::map<std::string, ChannelFigures> holdout;          ///< by closed-loop simulation
   std::map<std::string, ChannelFigures> holdout_inverse;  ///< by the inverse model, through its low pass
   Energy energy_before, energy_after;
-  std::string next_move;
-  std::vector<std::string> next_separates;
+  std::vector<Suspect> suspects;  ///< beyond chance, too weak to be named
+  NextExperiment next;
   double detection_limit_N = 0.0;  ///< RMS of the weakest effect that would have been named
   plant::AxisParameters updated;   ///< recalibrated and extended
   std::vector<Figure> pictures;    ///< where the mismatch lives, before and after, on held-out runs

@@ -91,11 +91,30 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   out["energy"] = json::object();
   for (const auto& [component, before] : diagnosis.energy_before)
     out["energy"][component] = {{"before_J", before}, {"after_J", diagnosis.energy_after.at(component)}};
-  out["next_experiment"] = {{"move", diagnosis.next_move}, {"separates", diagnosis.next_separates}};
+  out["next_experiment"] = {{"move", diagnosis.next.move}, {"separates", diagnosis.next.separates}, {"p_resolve", nullptr}};
+  if (diagnosis.next.p_resolve) out["next_experiment"]["p_resolve"] = *diagnosis.next.p_resolve;
+  out["suspects"] = json::array();
+  for (const auto& s : diagnosis.suspects)
+    out["suspects"].push_back({{"id", s.hypothesis->id}, {"strength", s.strength}, {"p_false_alarm", s.p_false_alarm}});
   out["detection_limit_N"] = diagnosis.detection_limit_N;
   out["updated_axis"] = updated_axis;
   out["figures"] = tools::to_json(diagnosis.pictures);
   return out;
+}
+
+json to_json(const HilComparison& hil) {
+  json channels = json::object();
+  for (const auto& [channel, before] : hil.before.nrmse)
+    channels[channel] = {{"nrmse_before", before}, {"nrmse_after", hil.after.nrmse.at(channel)}};
+  const auto of_run = [](const HilRun& run) {
+    return json{
+        {"ticks", run.ticks}, {"missed_ticks", run.missed_ticks}, {"verdict", run.verdict}, {"delay_s", run.delay_s}};
+  };
+  return {{"recording", hil.recording},
+          {"duration_s", hil.duration_s},
+          {"channels", channels},
+          {"before", of_run(hil.before)},
+          {"after", of_run(hil.after)}};
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -38,6 +38,13 @@ std::string sentence_of(const NamedEffect& effect) {
   return text;
 }
 
+std::string next_move_of(const NextExperiment& next) {
+  if (next.move.empty()) return "";
+  if (!next.p_resolve) return fmt::format(" What would tell: {}.", next.move);
+  return fmt::format(" Of the moves tried in simulation this one tells best: {}; chance that it does {:.0f} %.", next.move,
+                     100.0 * *next.p_resolve);
+}
+
 std::string summary_of(const Diagnosis& diagnosis) {
   const auto& verdict = diagnosis.verdict;
   if (verdict == "agrees")
@@ -55,6 +62,16 @@ std::string summary_of(const Diagnosis& diagnosis) {
         : diagnosis.unknown->axis == Where::velocity ? "speed (m/s)"
                                                      : "time since reversal (s)",
         100.0 * diagnosis.unknown->share_held_out, diagnosis.unknown->low, diagnosis.unknown->high);
+  if (verdict == "cannot-tell") {
+    std::vector<std::string> like;
+    for (const auto& suspect : diagnosis.suspects) like.emplace_back(suspect.hypothesis->id);
+    return fmt::format(
+               "Something is left over that chance does not explain (p {:.1g}) and that is too weak to be named: it would "
+               "have "
+               "to make {:.2g} N rms. It looks most like {}.",
+               std::max(1e-6, diagnosis.suspects.front().p_false_alarm), diagnosis.detection_limit_N, list_of(like)) +
+           next_move_of(diagnosis.next);
+  }
   std::vector<std::string> ids;
   for (const auto& fault : diagnosis.setup) ids.push_back(fault.id);
   for (const auto& effect : diagnosis.effects) ids.emplace_back(effect.hypothesis->id);

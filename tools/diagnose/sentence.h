@@ -10,6 +10,9 @@ namespace feedtwin::tools::diagnosis {
 /// Where, what, how large with its interval, how sure, how much of the mismatch, what else could be.
 [[nodiscard]] std::string sentence_of(const NamedEffect& effect);
 
+/// What to do next and the chance that it tells; empty where nothing is open.
+[[nodiscard]] std::string next_move_of(const NextExperiment& next);
+
 /// The whole of it in one line.
 [[nodiscard]] std::string summary_of(const Diagnosis& diagnosis);
 

@@ -37,6 +37,13 @@ struct Answer {
   double chance = 0.0;
 };
 
+bool about_a_process(const std::vector<Question>& questions) {
+  const auto has = [](const Candidate& model) {
+    return std::ranges::any_of(model.effects, [](const Active& a) { return a.hypothesis->id == "process_force"; });
+  };
+  return std::ranges::any_of(questions, [&has](const Question& q) { return has(q.truth) || has(q.other.model); });
+}
+
 /// Of the moves the first that answers every question well, else the best.
 Answer best_move(const Separation& separation, const std::vector<Question>& questions,
                  const std::function<void(std::string_view)>& progress) {
@@ -47,7 +54,8 @@ Answer best_move(const Separation& separation, const std::vector<Question>& ques
     return chance;
   };
   std::vector<Answer> promising;
-  for (const auto& move : moves()) promising.push_back({&move, least(move, false)});
+  for (const auto& move : moves())
+    if (move.process_runs || about_a_process(questions)) promising.push_back({&move, least(move, false)});
   std::ranges::stable_sort(promising, [](const Answer& a, const Answer& b) {
     return std::min(a.chance, good_enough) > std::min(b.chance, good_enough);
   });
