@@ -67,18 +67,17 @@ template <class Real>
   const Real g = side.coulomb_N + rise;
   const Real dg = -rise * side.inverse_stribeck_s_per_m;  // every d... is by the speed
 
-  // E, phi and their slopes with y = c / g, multiplied through by g^3: one division for all
+  // E, phi and their slopes with y = c / g, multiplied through by powers of g: one division for all
   const Real c = bristle.stiffness_N_per_m * h_s * speed_m_per_s;
   const Real g2 = g * g;
   const Real tail = c * (0.5 * g + (1.0 / 6.0) * c);
   const Real per_denominator = 1.0 / (g2 * (g + c) + c * tail);
   const Real E = g2 * g * per_denominator;
   const Real phi = g * (g2 + tail) * per_denominator;
-  const Real fall = g * (g2 + c * (g + 0.5 * c)) * per_denominator;  // (1 + y + y^2/2) / (1 + y + y^2/2 + y^3/6)
-  const Real dE_dy = -E * fall;
-  const Real dphi_dy = g2 * (0.5 * g + (1.0 / 3.0) * c) * per_denominator - phi * fall;
-  const Real per_g = 1.0 / g;
-  const Real dy = bristle.stiffness_N_per_m * h_s * (g - speed_m_per_s * dg) * per_g * per_g;
+  const Real fall = (g2 + c * (g + 0.5 * c)) * per_denominator;                                  // -dE/dy / (E g)
+  const Real dy = bristle.stiffness_N_per_m * h_s * (g - speed_m_per_s * dg) * per_denominator;  // g^2 dy / denominator
+  const Real dE = -g2 * fall * dy;
+  const Real dphi = (0.5 * g + (1.0 / 3.0) * c - (g2 + tail) * fall) * dy;
 
   const Real toward = sign * bristle.compliance_m_per_N;
   const Real z_ss = toward * g;
@@ -86,8 +85,8 @@ template <class Real>
   const Real offset = z_m - z_ss;
   const Real z_mean = z_ss + offset * phi;
   const Real z_end = z_ss + offset * E;
-  const Real dz_mean = dz_ss * (1.0 - phi) + offset * dphi_dy * dy;
-  const Real dz_end = dz_ss * (1.0 - E) + offset * dE_dy * dy;
+  const Real dz_mean = dz_ss * (1.0 - phi) + offset * dphi;
+  const Real dz_end = dz_ss * (1.0 - E) + offset * dE;
 
   const Real damping_per_h = bristle.damping_Ns_per_m * per_h_Hz;
   return {bristle.stiffness_N_per_m * z_mean + damping_per_h * (z_end - z_m) + sign * side.viscous_Ns_per_m * speed_m_per_s,

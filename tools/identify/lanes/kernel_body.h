@@ -60,6 +60,8 @@ struct LaneGroup {
     return record.torque_Nm[i] + stand_in.correction_N(record.position_m[i] - shown_m) / axis.model.transmission_rad_per_m;
   }
 
+  /// @param metered power is wanted, and with it what each component takes: left out, the compiler leaves the sums out too
+  template <bool metered>
   [[gnu::always_inline]] void step(const RecordView& record, std::size_t i, const Outputs& out) noexcept {
     const Real limit = Real{} + record.torque_limit_Nm;
     const Real shown_m = axis.state.position_m - axis.position_offset_m;
@@ -76,10 +78,10 @@ struct LaneGroup {
       store<Real>(out.force_sensor_N, at, sensed.force_sensor_N);
     }
     plant::NoEffects<Real> no_effects;
-    const Real before_m = axis.state.position_m;
-    const auto taken =
+    [[maybe_unused]] const Real before_m = axis.state.position_m;
+    [[maybe_unused]] const auto taken =
         plant::integrate_tick<Real>(axis.model, axis.state, no_effects, drive_N, record.tick_s, plant::one_count);
-    if (out.power_W != nullptr) {
+    if constexpr (metered) {
       const Real work_J = motor_N * (axis.state.position_m - before_m);
       const Real power_W = (axis.electrical_J(taken, record.tick_s) + work_J) / record.tick_s;
       store<Real>(out.power_W, at, power_W);
@@ -87,10 +89,15 @@ struct LaneGroup {
   }
 };
 
+template <class Real, bool metered>
+[[gnu::flatten]] void run_lanes(const RecordView& record, const Candidate* candidates, const Outputs& out) {
+  LaneGroup<Real> lanes(record, candidates);
+  for (std::size_t i = 0; i < record.samples; ++i) lanes.template step<metered>(record, i, out);
+}
+
 template <class Real>
 void run_closed_loop(const RecordView& record, const Candidate* candidates, const Outputs& out) {
-  LaneGroup<Real> lanes(record, candidates);
-  for (std::size_t i = 0; i < record.samples; ++i) lanes.step(record, i, out);
+  out.power_W != nullptr ? run_lanes<Real, true>(record, candidates, out) : run_lanes<Real, false>(record, candidates, out);
 }
 
 }  // namespace feedtwin::tools::lanes
