@@ -70,7 +70,7 @@ Recording eight_seconds() {
 
 /// M, F_C, F_S - F_C, v_S, mu, sigma0, sigma1, offset
 constexpr double inverse_low[] = {20.0, 20.0, 0.0, 1e-4, 0.0, 1e6, 0.0, -50.0};
-constexpr double inverse_high[] = {200.0, 300.0, 200.0, 2e-2, 1e4, 2e8, 1e5, 50.0};
+constexpr double inverse_high[] = {200.0, 300.0, 200.0, 2e-2, 1e4, 2e8, 1e6, 50.0};
 
 template <class Point>
 double inverse_cost(const InverseLugre& model, const Point& x) {

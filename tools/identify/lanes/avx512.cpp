@@ -3,7 +3,8 @@
 namespace feedtwin::tools::lanes {
 
 KernelEntry avx512_kernel() noexcept {
-  return {"AVX-512", 8, run_closed_loop<plant::Doubles<8>>};
+  // four shapes are half a register
+  return {"AVX-512", 8, run_closed_loop<plant::Doubles<8>>, avx2_kernel().inverse};
 }
 
 }  // namespace feedtwin::tools::lanes

@@ -6,6 +6,7 @@
 
 #include "controllers/cascade_law.h"
 #include "plant/axis_model.h"
+#include "tools/identify/lanes/inverse_kernel.h"
 #include "tools/identify/stand_in.h"
 
 namespace feedtwin::tools::lanes {
@@ -50,6 +51,7 @@ struct KernelEntry {
   const char* instructions;
   std::size_t width;
   Kernel run;
+  InverseKernel inverse;
 };
 
 [[nodiscard]] KernelEntry baseline_kernel() noexcept;

@@ -4,8 +4,9 @@
 //   F = M a + sigma0 z + sigma1 dz/dt + mu v + F_0,   dz/dt = v - sigma0 |v| z / g(v),   g = F_C + (F_S - F_C) e^(-|v|/v_S)
 //
 // With the bristle's force in units of F_C, five of the eight (M, F_C, sigma1, mu, F_0) are linear and follow in closed
-// form; sigma0 / F_C, F_S / F_C and v_S are searched for on what the projection leaves (variable projection; Ceres'
-// TinySolver).
+// form; sigma0 / F_C, F_S / F_C and v_S are searched for on what the projection leaves (variable projection with Kaufman's
+// slopes, BIT 15, 1975; Ceres' TinySolver). The bristle over a tick is the plant's own step; one pass over the record in
+// lanes gives all that a step of the search needs (lanes/inverse_kernel.h).
 
 #include <optional>
 #include <span>
@@ -36,7 +37,8 @@ class InverseLugre {
   [[nodiscard]] double cost(const InverseLugreFit& at) const;
 
   struct Run {
-    std::vector<double> speed, travel_m, velocity, acceleration, force_N;  ///< of each tick; speed and travel >= 0
+    double sample_s = 0.0;
+    std::vector<double> velocity, acceleration, force_N;  ///< of each tick
   };
 
  private:
