@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/parallel.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "tools/diagnose/parallel.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {

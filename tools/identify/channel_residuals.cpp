@@ -36,7 +36,7 @@ std::vector<double> with_recorded_work(const ClosedLoopRun& run, const Simulated
 
 lanes::Wanted wanted_for(const Recording& recording) {
   return {.torque = true,
-          .position = recording.has(channel::power_W),
+          .position = true,
           .torque_sensor = recording.has(channel::torque_sensor_Nm),
           .force_sensor = recording.has(channel::force_sensor_N),
           .power = recording.has(channel::power_W)};

@@ -37,6 +37,20 @@ Eigen::MatrixXd starts_of(const std::vector<FitParameter>& first, const std::vec
   return points;
 }
 
+/// The command alone leaves valleys beside each other, and the axis file's may be deeper than the stages': both are gone
+/// down a first time, and the unknowns start from the end of the deeper one.
+/// @return whether that is the stages'
+bool take_deeper_valley(const std::vector<ClosedLoopRun>& runs, const BatchSimulator& simulate,
+                        const OutputErrorSettings& settings, std::vector<FitParameter>& unknowns) {
+  auto of_axis_file = unknowns;
+  for (auto& unknown : of_axis_file) unknown.start.reset();
+  const auto ends = first_fits(runs, unknowns, simulate, starts_of(unknowns, of_axis_file), settings);
+  const Eigen::VectorXd costs = output_error_cost(runs, of_axis_file, simulate, settings)(ends);
+  const bool stages = costs[0] <= costs[1];
+  for (std::size_t i = 0; i < unknowns.size(); ++i) unknowns[i].start = ends(static_cast<Eigen::Index>(i), stages ? 0 : 1);
+  return stages;
+}
+
 /// A population about the start: between a third and three times each number (or within its bounds), on simulated cost.
 void evolve_start(const std::vector<ClosedLoopRun>& runs, const BatchSimulator& simulate,
                   const IdentificationSettings& settings, std::vector<FitParameter>& unknowns, Identification& found) {
@@ -114,18 +128,9 @@ Identification identify_case(const Case& recordings, const IdentificationSetting
     found.population_seconds = seconds_of([&] { evolve_start(runs, simulate, settings, unknowns, found); });
   }
   found.seconds = seconds_of([&] {
+    if (found.started_from_stages && found.stages.contacts.empty())
+      found.started_from_stages = take_deeper_valley(runs, simulate, settings.output_error, unknowns);
     found.fit = fit_output_error(runs, unknowns, simulate, settings.output_error);
-    if (!found.started_from_stages || !found.stages.contacts.empty()) return;
-    // the command alone leaves valleys beside each other: the axis file's may be the deeper one
-    for (auto& unknown : unknowns) unknown.start.reset();
-    auto other = fit_output_error(runs, unknowns, simulate, settings.output_error);
-    Eigen::MatrixXd ends(other.point().size(), 2);
-    ends << found.fit.point(), other.point();
-    const Eigen::VectorXd costs = output_error_cost(runs, unknowns, simulate, settings.output_error)(ends);
-    if (costs[0] <= costs[1]) return;
-    other.simulations += found.fit.simulations;
-    found.fit = std::move(other);
-    found.started_from_stages = false;
   });
   found.axis = axis_at(recordings.axis, unknowns, found.fit.point()).parameters;
   for (auto& fitted :

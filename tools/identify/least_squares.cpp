@@ -87,11 +87,14 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
   double damping = 1e-2;
   for (; at.iterations < problem.most_iterations; ++at.iterations) {
     linearise(problem, at);
-    const MatrixXd normal = at.jacobian.transpose() * at.jacobian;
+    MatrixXd normal = MatrixXd::Zero(at.point.size(), at.point.size());
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(at.jacobian.transpose());
+    normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
     const VectorXd gradient = at.jacobian.transpose() * at.residuals;
     MatrixXd points(at.point.size(), static_cast<Index>(trials.size()));
     Index best = 0;
     double fall = 0.0;
+    VectorXd best_residuals;
     for (;;) {
       for (Index i = 0; i < points.cols(); ++i) {
         points.col(i) = damped_point(problem, at, normal, gradient, damping * trials[static_cast<std::size_t>(i)]);
@@ -102,6 +105,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
         if (cost_of(residuals.col(i)) < cost_of(residuals.col(best))) best = i;
       }
       fall = at.cost - cost_of(residuals.col(best));
+      best_residuals = residuals.col(best);
       if (fall > 0.0 || damping * trials.back() >= strongest_damping) break;
       damping = std::max(damping, 1e-4) * trials.back();  // no step that bold goes down: shorter ones
     }
@@ -111,7 +115,11 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
     }
     at.point = points.col(best);
     damping = std::clamp(damping * std::max(trials[static_cast<std::size_t>(best)], 1e-3), 1e-3, 1e6);
-    if (at.converged) break;
+    if (at.converged) {  // a step of no consequence: the slopes stay
+      at.residuals = best_residuals;
+      at.cost = cost_of(best_residuals);
+      return at;
+    }
   }
   linearise(problem, at);
   return at;

@@ -22,7 +22,7 @@ struct LeastSquaresProblem {
 struct LeastSquaresSolution {
   Eigen::VectorXd point;
   Eigen::VectorXd residuals;
-  Eigen::MatrixXd jacobian;  ///< at the point
+  Eigen::MatrixXd jacobian;  ///< at the point, or one converged step before it
   double cost = 0.0;         ///< half the sum of squares
   int iterations = 0;
   bool converged = false;

@@ -33,7 +33,11 @@ struct OutputErrorSettings {
   /// An unknown is told by the data when its deviation is below this share of its scale and below half of the prior's.
   double told_below = 0.15;
   std::size_t whitening_order = 24;
-  int rounds = 3;  ///< of fitting and weighing anew
+  /// Rows at rest and about it count by what an encoder's rounding leaves of them: a rest's mean as one reading, the ticks
+  /// of sticking and setting off by a few deviations at most. Not where what is missing may act at rest.
+  bool doubt_rests = true;
+  int encoder_grids = 32;  ///< that the effect of the encoder's rounding is seen on; fewer than 2: it is left out
+  int rounds = 3;          ///< of fitting and weighing anew
   int most_iterations = 25;
   const Ranks* ranks = nullptr;                           ///< who shares the simulations; nullptr: nobody
   std::function<void(const std::string& line)> progress;  ///< told of every round; may be empty
@@ -68,6 +72,11 @@ struct OutputErrorFit {
 [[nodiscard]] OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs,
                                               const std::vector<FitParameter>& parameters, const BatchSimulator& simulate,
                                               const OutputErrorSettings& settings = {});
+
+/// Where a first round of fitting ends from each of several starts, a column each.
+[[nodiscard]] Eigen::MatrixXd first_fits(const std::vector<ClosedLoopRun>& runs, const std::vector<FitParameter>& parameters,
+                                         const BatchSimulator& simulate, const Eigen::MatrixXd& starts,
+                                         const OutputErrorSettings& settings = {});
 
 /// Half the sum of squares for each point, with channels weighed by what is left at the parameters' start: for a population,
 /// or to choose between starts. What it refers to must outlive it.

@@ -1,16 +1,32 @@
 #include "tools/identify/whitening.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace feedtwin::tools {
 
 void Whitening::apply(std::span<double> residuals) const {
+  constexpr std::size_t block = 512;
   const std::size_t order = coefficients.size();
-  for (std::size_t k = residuals.size(); k-- > 0;) {
-    double e = residuals[k];
-    for (std::size_t i = 1; i <= std::min(order, k); ++i) e -= coefficients[i - 1] * residuals[k - i];
-    residuals[k] = e / sigma;
+  std::array<double, block> e;
+  // from the end, block by block, one coefficient after the other over a block: loops that a compiler makes vectors of
+  std::size_t end = residuals.size();
+  while (end > order) {
+    const std::size_t first = std::max(order, end > block ? end - block : 0), count = end - first;
+    std::copy_n(residuals.data() + first, count, e.data());
+    for (std::size_t i = 1; i <= order; ++i) {
+      const double a = coefficients[i - 1];
+      const double* past = residuals.data() + first - i;
+      for (std::size_t k = 0; k < count; ++k) e[k] -= a * past[k];
+    }
+    for (std::size_t k = 0; k < count; ++k) residuals[first + k] = e[k] / sigma;
+    end = first;
+  }
+  for (std::size_t k = end; k-- > 0;) {  // what has no full past
+    double rest = residuals[k];
+    for (std::size_t i = 1; i <= k; ++i) rest -= coefficients[i - 1] * residuals[k - i];
+    residuals[k] = rest / sigma;
   }
 }
 

@@ -65,5 +65,30 @@ TEST(Whitening, TakesNothingAndZeros) {
   EXPECT_TRUE(few.coefficients.empty()) << "three samples tell no colour";
 }
 
+// Whatever the length beside the order: sample by sample what the formula says.
+TEST(Whitening, IsTheFormulaForAnyLength) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> unit;
+  for (int round = 0; round < 200; ++round) {
+    Whitening whitening;
+    whitening.coefficients.resize(std::uniform_int_distribution<std::size_t>(0, 30)(random));
+    for (double& a : whitening.coefficients) a = unit(random);
+    whitening.sigma = std::exp(unit(random));
+    std::vector<double> r(std::uniform_int_distribution<std::size_t>(0, 1600)(random));
+    for (double& value : r) value = unit(random);
+    std::vector<double> white = r;
+    whitening.apply(white);
+    for (std::size_t k = 0; k < r.size(); ++k) {
+      double e = r[k], size = std::abs(r[k]);
+      for (std::size_t i = 1; i <= std::min(k, whitening.coefficients.size()); ++i) {
+        e -= whitening.coefficients[i - 1] * r[k - i];
+        size += std::abs(whitening.coefficients[i - 1] * r[k - i]);
+      }
+      ASSERT_NEAR(white[k], e / whitening.sigma, 1e-14 * size / whitening.sigma)
+          << "row " << k << " of " << r.size() << ", order " << whitening.coefficients.size();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace feedtwin::tools

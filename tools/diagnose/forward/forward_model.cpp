@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "tools/diagnose/parallel.h"
 #include "tools/identify/channel_residuals.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {

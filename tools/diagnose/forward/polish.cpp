@@ -71,6 +71,8 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   };
   OutputErrorSettings output_error;
   output_error.prior = 1.0;
+  output_error.doubt_rests = false;
+  output_error.encoder_grids = 0;
   output_error.rounds = settings.rounds;
   output_error.most_iterations = settings.most_iterations;
   const auto fit = fit_output_error(forward.runs(), unknowns, simulator, output_error);

@@ -1,12 +1,13 @@
 #pragma once
 // Independent pieces of work on all cores; the result does not depend on how many there are.
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <thread>
 #include <vector>
 
-namespace feedtwin::tools::diagnosis {
+namespace feedtwin::tools {
 
 template <class Work>
 void parallel_for(std::size_t count, const Work& work) {
@@ -20,4 +21,4 @@ void parallel_for(std::size_t count, const Work& work) {
   worker();
 }
 
-}  // namespace feedtwin::tools::diagnosis
+}  // namespace feedtwin::tools
