@@ -7,9 +7,9 @@
 
 #include "plant/feed_axis.h"
 #include "tools/diagnose/forward/extended_axis.h"
-#include "tools/diagnose/parallel.h"
 #include "tools/identify/channel_residuals.h"
 #include "tools/loopback/tracking_gains.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
