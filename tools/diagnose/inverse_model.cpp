@@ -74,7 +74,7 @@ Vector meant(const Vector& at) {
 bool touches(const Contribution& c, const Equation& equation) {
   const auto set = [](const Vector& v) { return v.size() > 0; };
   if (equation.slip) return set(c.slip_m);
-  if (equation.power) return set(c.power_W) || set(c.drive_N);
+  if (equation.power) return set(c.power_W);
   const bool own = (equation.motor && (set(c.motor_N) || set(c.drive_N))) || (equation.screw && set(c.screw_N)) ||
                    (equation.guide && (set(c.guide_N) || c.table_mass_kg != 0.0));
   const bool torque = equation.motor != equation.screw, force = equation.screw != equation.guide;
@@ -248,7 +248,6 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   if (equation.power) {
     Vector model = base.power_W;
     if (extra.power_W.size() > 0) model += extra.power_W;
-    if (extra.drive_N.size() > 0) model += extra.drive_N.cwiseProduct(track.centred_m_per_s);  // torque that is there
     return model;
   }
   Vector r = recorded_side(equation, run);

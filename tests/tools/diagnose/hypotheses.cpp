@@ -72,17 +72,20 @@ const std::map<std::string_view, Trial>& trials() {
   return all;
 }
 
-/// Fast and jerky, and slow over a longer way with rests at its ends.
-std::vector<tools::Recording> runs_of(const plant::AxisParameters& truth, bool sensors) {
+/// Fast and jerky, and slow over a longer way with rests at its ends. Power only for what acts there: its equation takes the
+/// commanded torque for the one that is there.
+std::vector<tools::Recording> runs_of(const plant::AxisParameters& truth, bool sensors, bool power) {
   const auto run = [&](const char* motion, controllers::MotionSettings settings, unsigned seed) {
-    return tests::make_recording(truth, {.motion = motion,
-                                         .settings = settings,
-                                         .duration_s = 2.0,
-                                         .sensors = sensors,
-                                         .scale_at_table = true,
-                                         .torque_noise_Nm = 5e-4,
-                                         .force_noise_N = 0.05,
-                                         .seed = seed});
+    auto made = tests::make_recording(truth, {.motion = motion,
+                                              .settings = settings,
+                                              .duration_s = 2.0,
+                                              .sensors = sensors,
+                                              .scale_at_table = true,
+                                              .torque_noise_Nm = 5e-4,
+                                              .force_noise_N = 0.05,
+                                              .seed = seed});
+    if (!power) made.channels.erase("power_W");
+    return made;
   };
   return {run("sine", {.amplitude_m = 0.02, .speed_m_per_s = 0.11}, 1), run("s_curve",
                                                                             {.amplitude_m = 0.012,
@@ -103,13 +106,13 @@ plant::EffectSetting setting_of(std::string_view id, const Trial& trial) {
 class EveryHypothesis : public testing::TestWithParam<std::string_view> {};
 
 /// The noise's own colour, from the same runs without any effect.
-const Whitening& whitening_of(bool sensors) {
-  const auto made = [](bool with) {
-    const InverseModel model(make_tracks(runs_of(plant::source_axis(), with), plant::source_axis()), plant::source_axis());
-    return Whitening::estimate(model, model.residual(plant::source_axis(), {}));
-  };
-  static const Whitening with = made(true), without = made(false);
-  return sensors ? with : without;
+const Whitening& whitening_of(bool sensors, bool power) {
+  static std::map<std::pair<bool, bool>, Whitening> made;
+  const auto found = made.find({sensors, power});
+  if (found != made.end()) return found->second;
+  const auto axis = plant::source_axis();
+  const InverseModel model(make_tracks(runs_of(axis, sensors, power), axis), axis);
+  return made.emplace(std::pair{sensors, power}, Whitening::estimate(model, model.residual(axis, {}))).first->second;
 }
 
 /// Gauss-Newton on the effect's own numbers alone.
@@ -143,9 +146,10 @@ TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
     nominal.motor.inertia_kgm2 *= 1.03;
     nominal.ball_screw.viscous_Ns_per_m.neg *= 0.97;
   }
-  const InverseModel model(make_tracks(runs_of(truth, trial.sensors), nominal), nominal);
+  const bool power = hypothesis(GetParam()).channel == "power_W";
+  const InverseModel model(make_tracks(runs_of(truth, trial.sensors, power), nominal), nominal);
   const Candidate start{nominal, {{&hypothesis(GetParam()), trial.start}}};
-  const Whitening& whitening = whitening_of(trial.sensors);
+  const Whitening& whitening = whitening_of(trial.sensors, power);
   const Candidate fitted =
       trial.known_numbers ? fit_alone(model, whitening, start) : Fitter(model, nominal).fit(start, whitening, 10).model;
   const auto found = fitted.effects[0].hypothesis->named(fitted.effects[0].q, fitted.axis);
