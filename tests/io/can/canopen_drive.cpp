@@ -79,6 +79,40 @@ TEST(CanopenDrive, AbortConnectionOptionDecides) {
   }
 }
 
+/// 605A and 6085 say how a quick stop brakes, 6072 how hard at most; 65536 counts are 5 mm.
+TEST(CanopenDrive, AQuickStopBrakesAsItsOptionSays) {
+  struct Case {
+    int option;
+    double ramp_m_per_s2;
+    bool stays;
+  };
+  for (const Case& c : {Case{2, 4.0, false}, Case{3, 0.0, false}, Case{6, 4.0, true}, Case{7, 0.0, true}}) {
+    BusWithMaster b;
+    EXPECT_NEAR(static_cast<double>(b.read(0x6085)) * 0.005 / 65536.0, 9.81, 1e-6);
+    EXPECT_EQ(b.write(0x605A, 0, 5, 2), 0x0609'0030U);
+    ASSERT_EQ(b.write(0x605A, 0, c.option, 2), 0U);
+    ASSERT_EQ(b.write(0x6085, 0, 52'428'800, 4), 0U);
+    ASSERT_EQ(b.write(0x6072, 0, 800, 2), 0U);
+    b.enable();
+    b.reports[0].velocity_m_per_s = 0.1;
+    b.command(1, 0x0F, 300);
+    b.command(1, 0x02, 300);
+    EXPECT_TRUE(b.requests[0].quick_stop && b.requests[0].enable) << c.option;
+    EXPECT_EQ(b.requests[0].torque_Nm, 0.0);
+    EXPECT_NEAR(b.requests[0].brake_m_per_s2, c.ramp_m_per_s2, 1e-9) << c.option;
+    EXPECT_NEAR(b.requests[0].brake_limit_Nm, 0.8 * 1.27, 1e-9);
+    b.reports[0].velocity_m_per_s = 0.0;  // at rest
+    for (int i = 0; i < 3; ++i) b.command(1, 0x02, 0);
+    EXPECT_EQ(b.nodes[0]->drive_state(), c.stays ? Cia402State::quick_stop_active : Cia402State::switch_on_disabled);
+  }
+  BusWithMaster b;  // 0: off at once
+  ASSERT_EQ(b.write(0x605A, 0, 0, 2), 0U);
+  b.enable();
+  b.reports[0].velocity_m_per_s = 0.1;
+  b.command(1, 0x02, 0);
+  EXPECT_FALSE(b.requests[0].enable);
+}
+
 TEST(CanopenDrive, TorqueLimitAndOffsetAct) {
   BusWithMaster b;
   ASSERT_EQ(b.write(0x6072, 0, 200, 2), 0U);
