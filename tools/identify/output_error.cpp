@@ -32,8 +32,9 @@ void adapt_steps(const LeastSquaresSolution& at, const std::vector<FitParameter>
   }
 }
 
-/// Central differences at a solution.
-void linearise_centrally(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
+/// Slopes at a solution from differences to either side. Row by row the gentler one counts, none where they disagree in
+/// sign: a jump stands on one side only, and is no knowledge.
+void linearise_both_ways(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
   const Index n = at.point.size();
   MatrixXd points = at.point.replicate(1, 2 * n);
   for (Index i = 0; i < n; ++i) {
@@ -42,7 +43,17 @@ void linearise_centrally(const LeastSquaresProblem& problem, LeastSquaresSolutio
   }
   const MatrixXd residuals = problem.residuals(points);
   for (Index i = 0; i < n; ++i) {
-    at.jacobian.col(i) = (residuals.col(2 * i) - residuals.col(2 * i + 1)) / (points(i, 2 * i) - points(i, 2 * i + 1));
+    const double ahead = points(i, 2 * i) - at.point[i], back = at.point[i] - points(i, 2 * i + 1);
+    for (Index row = 0; row < residuals.rows(); ++row) {
+      const double here = at.residuals[row];
+      const double right = ahead > 0.0 ? (residuals(row, 2 * i) - here) / ahead : 0.0;
+      const double left = back > 0.0 ? (here - residuals(row, 2 * i + 1)) / back : 0.0;
+      if (ahead <= 0.0 || back <= 0.0) {
+        at.jacobian(row, i) = right + left;
+      } else {
+        at.jacobian(row, i) = right * left <= 0.0 ? 0.0 : std::abs(right) < std::abs(left) ? right : left;
+      }
+    }
   }
 }
 
@@ -85,7 +96,7 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
     problem.start = at.point;
     adapt_steps(at, parameters, problem.step);
   }
-  linearise_centrally(problem, at);
+  linearise_both_ways(problem, at);
   OutputErrorFit fit;
   const MatrixXd inverse = inverse_information(at);
   fit.covariance = covariance_of(at, stack, inverse, rounding_effect(at, inverse, stack, settings.encoder_grids));

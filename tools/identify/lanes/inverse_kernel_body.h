@@ -1,6 +1,8 @@
 #pragma once
 // The inverse kernel's body; as in kernel_body.h, each instruction set has a lane type of its own.
 
+#include <utility>
+
 #include "plant/lugre.h"
 #include "tools/identify/lanes/inverse_kernel.h"
 
@@ -66,27 +68,37 @@ class ColumnSums {
 
   /// @param rows of bristle_columns + motion_columns each
   void add(const double* rows, std::size_t count) noexcept {
-    for (std::size_t r = 0; r < bristle_columns / width; ++r) {
-      Real sums[columns];  // in registers
-      for (std::size_t j = 0; j < columns; ++j) sums[j] = sums_[r][j];
-      for (std::size_t i = 0; i < count; ++i) {
-        const double* row = rows + i * columns;
-        Real some;
-        __builtin_memcpy(&some, row + r * width, sizeof some);
-        for (std::size_t j = 0; j < columns; ++j) sums[j] += some * row[j];
-      }
-      for (std::size_t j = 0; j < columns; ++j) sums_[r][j] = sums[j];
-    }
+    add_registers(rows, count, std::make_index_sequence<bristle_columns / width>{});
   }
 
   void add_to(InverseSums& all) const noexcept {
     for (std::size_t i = 0; i < bristle_columns; ++i)
-      for (std::size_t j = 0; j < columns; ++j) all.products[i][j] += sums_[i / width][j][i % width];
+      for (std::size_t j = 0; j < columns; ++j)
+        all.products[i][j] += j >= i / width * width ? sums_[i / width][j][i % width] : sums_[j / width][i][j % width];
   }
 
   static constexpr std::size_t columns = bristle_columns + motion_columns;
 
  private:
+  template <std::size_t... r>
+  void add_registers(const double* rows, std::size_t count, std::index_sequence<r...> /*registers*/) noexcept {
+    (add_register<r>(rows, count), ...);
+  }
+
+  /// A register's columns against themselves and those after them: the others are there already.
+  template <std::size_t r>
+  void add_register(const double* rows, std::size_t count) noexcept {
+    Real sums[columns];  // in registers
+    for (std::size_t j = r * width; j < columns; ++j) sums[j] = sums_[r][j];
+    for (std::size_t i = 0; i < count; ++i) {
+      const double* row = rows + i * columns;
+      Real some;
+      __builtin_memcpy(&some, row + r * width, sizeof some);
+      for (std::size_t j = r * width; j < columns; ++j) sums[j] += some * row[j];
+    }
+    for (std::size_t j = r * width; j < columns; ++j) sums_[r][j] = sums[j];
+  }
+
   Real sums_[bristle_columns / width][columns] = {};
 };
 

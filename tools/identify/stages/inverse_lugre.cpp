@@ -151,10 +151,11 @@ std::optional<InverseLugreFit> InverseLugre::fit(const InverseLugreStart& start)
   ceres::TinySolver<Projected> solver{};
   solver.options.max_num_iterations = 40;
   solver.options.gradient_tolerance = 1e-8;
+  solver.options.initial_trust_region_radius = 100.0;
   Vector3 x{-std::log(start.bristle_length_m), std::log(std::max(start.static_over_coulomb - 1.0, 1e-3)),
             std::log(start.stribeck_m_per_s)};
   // the solver's tolerance is absolute
-  solver.options.function_tolerance = 1e-7 * projected.project(x).triangle.col(3).squaredNorm();
+  solver.options.function_tolerance = 3e-7 * projected.project(x).triangle.col(3).squaredNorm();
   solver.Solve(projected, &x);
   const Vector5 linear = projected.project(x).linear;
   const auto shape = shape_at(x);
