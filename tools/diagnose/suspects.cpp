@@ -12,7 +12,7 @@ namespace {
 
 constexpr int iterations = 6;
 constexpr std::size_t asked = 4;
-constexpr double share_of_strength = 0.5;  // of what it takes to be named
+constexpr double share_of_strength = 0.7;  // of what it takes to be named
 
 bool can_be_suspected(const Score& score, const Screen& left, const Bar& bar) {
   const Hypothesis& h = *score.hypothesis;

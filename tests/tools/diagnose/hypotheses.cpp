@@ -75,7 +75,7 @@ const std::map<std::string_view, Trial>& trials() {
 /// Fast and jerky, and slow over a longer way with rests at its ends. Power only for what acts there: its equation takes the
 /// commanded torque for the one that is there.
 std::vector<tools::Recording> runs_of(const plant::AxisParameters& truth, bool sensors, bool power) {
-  const auto run = [&](const char* motion, controllers::MotionSettings settings, unsigned seed) {
+  const auto run = [&](const char* motion, const controllers::MotionSettings& settings, unsigned seed) {
     auto made = tests::make_recording(truth, {.motion = motion,
                                               .settings = settings,
                                               .duration_s = 2.0,
