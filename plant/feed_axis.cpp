@@ -141,7 +141,9 @@ const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noe
 void FeedAxis::show_with_effects() noexcept {
   SensedTravel travel{state_.position_m, table_position_m()};
   chain_->sense(travel);
-  show(travel, chain_->counts(true_encoder_.counts(travel.shaft_m)));
+  const std::int64_t seen = true_encoder_.counts(travel.shaft_m), counts = chain_->counts(seen);
+  encoder_error_m_ = travel.shaft_m - state_.position_m + true_encoder_.position_m(counts - seen);
+  show(travel, counts);
   chain_->show(signals_);
 }
 

@@ -39,6 +39,10 @@ class FeedAxis {
   [[nodiscard]] double table_position_m() const noexcept {
     return chain_ ? chain_->table_position_m(state_) : state_.position_m;
   }
+  /// What the encoder shows as table travel, before it counts: the shaft's angle with what effects make of it.
+  [[nodiscard]] double shown_position_m() const noexcept {
+    return (signals_.position_m + encoder_error_m_) * (encoder_.resolution_m() / true_encoder_.resolution_m());
+  }
   /// Torque and force sensor at this instant with `acting` as the command, as a recording samples them at the start of a
   /// tick. Costs a third of a step, so only where it is asked for. Wait-free.
   [[nodiscard]] ForceSignals force_sensors(const AxisCommand& acting) const noexcept FEEDTWIN_REALTIME;
@@ -74,7 +78,8 @@ class FeedAxis {
   Encoder true_encoder_;  ///< as the screw turns it (wrong_lead)
   PowerMeter power_meter_;
   AxisSignals signals_;
-  double tick_s_ = 1e-3;  ///< of the last step
+  double encoder_error_m_ = 0.0;  ///< shown less true shaft angle, as table travel
+  double tick_s_ = 1e-3;          ///< of the last step
   double elapsed_s_ = 0.0;
   double placed_s_ = 0.0, screw_J_when_placed_ = 0.0;  ///< where effects begin to count
   double input_work_J_ = 0.0;

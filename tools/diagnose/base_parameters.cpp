@@ -15,8 +15,8 @@ std::vector<BaseParameter> base_parameters(bool power_recorded) {
     const bool inertia = key.ends_with("inertia_kgm2") || key.ends_with("mass_kg");
     const bool presliding = key.find("sigma") != std::string_view::npos;
     const bool stribeck = key.find("stribeck") != std::string_view::npos;
-    const double tolerance = presliding ? 0.4 : stribeck ? 0.3 : 0.15;
-    found.push_back({&entry, tolerance, contact && !inertia, electrical});
+    const double tolerance = presliding ? 0.4 : stribeck ? 0.3 : 0.1;
+    found.push_back({&entry, tolerance, contact && !inertia, electrical, presliding || stribeck});
   }
   return found;
 }

@@ -10,9 +10,10 @@ namespace feedtwin::tools::diagnosis {
 
 struct BaseParameter {
   const plant::ParameterEntry* entry = nullptr;
-  double tolerance = 0.0;       ///< standard deviation of its logarithm, or of its value where the nominal value is zero
+  double tolerance = 0.0;       ///< standard deviation, as a share of the nominal value
   bool moves_friction = false;  ///< friction must be followed again when it changes
   bool only_power = false;
+  bool known_to_a_factor = false;  ///< of its logarithm: Stribeck velocities, bristles
 };
 
 /// The keys that recalibration may touch, in the table's order.

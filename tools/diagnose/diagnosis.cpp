@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/forward/arbiter.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/pictures.h"
@@ -68,6 +69,16 @@ std::size_t closest(const ForwardModel& forward, const std::vector<plant::AxisPa
   return best;
 }
 
+/// What recalibration alone can do, by the same measure as the named model: or the gain would be the polishing's.
+Candidate polished_if_closer(const ForwardModel& forward, const Fitter& fitter, const Candidate& start) {
+  PolishSettings quick;
+  quick.rounds = 1;
+  quick.coloured_from_start = true;
+  quick.intervals = false;
+  const Candidate polished = polish(forward, fitter, start, quick).model;
+  return closest(forward, {extended(polished), extended(start)}) == 0 ? polished : start;
+}
+
 /// Takes back the names that rest on the force; what is left of the model.
 Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
   std::erase_if(result.effects, [&](const NamedEffect& e) { return rests_on_force(*e.hypothesis); });
@@ -109,28 +120,36 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   ForwardModel simulated(unseen, data);
   simulated.take_meter_from(forward);
   keep_confirmed(forward, fitter, found, fit, progress);
+  const Candidate settled = Arbiter(forward, fitter, progress).settle(found, fit);
   const double inflation = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
   Eigen::MatrixXd covariance = inflation * robust_covariance(model, fit);
   // a name that every unseen fold bears out stays, whatever else is left over
   const bool certain = std::ranges::any_of(
       found.found, [](const Found& one) { return one.held_everywhere && rests_on_force(*one.effect.hypothesis); });
-  const bool unknown = beyond_the_catalogue(model, found, fit.model, progress) && !certain;
-  if (!unknown && !fit.model.effects.empty()) {
-    progress("polishing the numbers by closed-loop simulation");
-    auto polished = polish(forward, fitter, fit.model);
+  const bool unknown = beyond_the_catalogue(fitter, found, fit.model, progress) && !certain;
+  const Fit by_inverse_model = fit;
+  progress("polishing the numbers by closed-loop simulation");
+  if (!unknown) {
+    auto polished = polish(forward, fitter, settled);
     if (closest(forward, {extended(polished.model, worth_naming), extended(fit.model, worth_naming)}) == 0) {
       fit.model = polished.model;
       covariance = polished.covariance;
     }
   }
 
+  if (fit.model.effects.empty()) {
+    found.recalibrated.model = fit.model;
+  } else {
+    found.recalibrated.model = polished_if_closer(forward, fitter, found.recalibrated.model);
+  }
+
   for (const auto& one : found.found)
     if (worth_naming(one.effect)) result.effects.push_back(named_effect(one, fit, covariance, model));
   result.recalibrated = recalibrated(fitter, fit, covariance);
   std::vector<plant::AxisParameters> ways{extended(fit.model, worth_naming), extended(fit.model)};
-  if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model));
+  if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model)), ways.push_back(data.axis);
   result.updated = ways[closest(forward, ways)];
-  if (!anything_missing(result)) result.suspects = suspects(fitter, found, fit, Bar{}, progress);
+  if (!anything_missing(result)) result.suspects = suspects(fitter, found, by_inverse_model, Bar{}, progress);
   result.verdict = verdict_of(result);
   result.detection_limit_N = 0.2 * std::max(Bar{}.force_N, found.whitening.residual_rms(0));
 

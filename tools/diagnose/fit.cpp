@@ -9,7 +9,7 @@
 namespace feedtwin::tools::diagnosis {
 
 Fitter::Fitter(const InverseModel& model, const plant::AxisParameters& nominal)
-    : model_(model), nominal_(nominal), base_(base_parameters(model.power_recorded())) {}
+    : model_(model), nominal_(nominal), base_(base_parameters(model.power_recorded())), structure_(model) {}
 
 double Fitter::tolerance(std::size_t parameter) const {
   const auto& p = base_[parameter];
@@ -21,8 +21,11 @@ double Fitter::tolerance(std::size_t parameter) const {
 
 Vector Fitter::deviations(const plant::AxisParameters& axis) const {
   Vector out(static_cast<Index>(base_.size()));
-  for (std::size_t i = 0; i < base_.size(); ++i)
-    out[static_cast<Index>(i)] = (value_of(base_[i], axis) - value_of(base_[i], nominal_)) / tolerance(i);
+  for (std::size_t i = 0; i < base_.size(); ++i) {
+    const double now = value_of(base_[i], axis), nominal = value_of(base_[i], nominal_);
+    const bool by_factor = base_[i].known_to_a_factor && now > 0.0 && nominal > 0.0;
+    out[static_cast<Index>(i)] = by_factor ? std::log(now / nominal) / base_[i].tolerance : (now - nominal) / tolerance(i);
+  }
   return out;
 }
 
@@ -140,13 +143,17 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
   return best;
 }
 
+Whitening Fitter::colour_of(const Vector& residual) const {
+  return Whitening::estimate(model_, residual - structure_.part_of(residual));
+}
+
 Fit Fitter::fit_with_colour(const Candidate& start, Whitening& whitening, int rounds, int iterations) const {
   Fit best;
   Candidate at = start;
   for (int round = 0; round < rounds; ++round) {
     best = fit(at, whitening, iterations);
     at = best.model;
-    whitening = Whitening::estimate(model_, best.residual);
+    whitening = colour_of(best.residual);
   }
   return linearised(at, whitening);
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/diagnose/base_parameters.h"
-#include "tools/diagnose/inverse_model.h"
+#include "tools/diagnose/structure.h"
 #include "tools/diagnose/whitening.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -39,7 +39,11 @@ class Fitter {
   /// A colour first: fits with the residual's own colour of each round.
   [[nodiscard]] Fit fit_with_colour(const Candidate& start, Whitening& whitening, int rounds, int iterations) const;
 
+  /// The noise's colour: of a residual without what repeats in it, which must not be whitened away.
+  [[nodiscard]] Whitening colour_of(const Vector& residual) const;
+
   [[nodiscard]] const InverseModel& model() const { return model_; }
+  [[nodiscard]] const RepeatableStructure& structure() const { return structure_; }
   [[nodiscard]] const plant::AxisParameters& nominal() const { return nominal_; }
   [[nodiscard]] const std::vector<BaseParameter>& base() const { return base_; }
   /// (value - nominal) in tolerances.
@@ -54,6 +58,7 @@ class Fitter {
   const InverseModel& model_;
   plant::AxisParameters nominal_;
   std::vector<BaseParameter> base_;
+  RepeatableStructure structure_;
 };
 
 }  // namespace feedtwin::tools::diagnosis

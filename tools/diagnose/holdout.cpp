@@ -1,5 +1,7 @@
 #include "tools/diagnose/holdout.h"
 
+#include <algorithm>
+
 namespace feedtwin::tools::diagnosis {
 
 std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Candidate& nominal,
@@ -21,7 +23,7 @@ std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const pl
   const auto before = runs.nrmse(nominal), middle = runs.nrmse(recalibrated_only), after = runs.nrmse(final);
   const auto floor = runs.noise_floor(final);
   for (const auto& [channel, value] : before)
-    out[channel] = {value, middle.at(channel), after.at(channel), floor.at(channel)};
+    out[channel] = {value, middle.at(channel), after.at(channel), std::min(floor.at(channel), after.at(channel))};
   return out;
 }
 

@@ -101,7 +101,10 @@ Active at_zero(const Score& score) {
   return active;
 }
 
-Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) {
+namespace {
+
+Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, const Fitter& fitter, const Fit& fit,
+              const Whitening& whitening) {
   const InverseModel& model = fitter.model();
   const Index rows = fit.white.size();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.jacobian);
@@ -120,14 +123,14 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
   };
   std::vector<Task> tasks;
   std::vector<std::vector<std::vector<double>>> grids;
-  for (const auto& hypothesis : hypotheses()) grids.push_back(grid_of(hypothesis, model, left));
-  for (const auto& hypothesis : hypotheses()) {
-    const auto& shapes = grids[static_cast<std::size_t>(&hypothesis - hypotheses().data())];
-    const bool present =
-        std::ranges::any_of(fit.model.effects, [&](const Active& a) { return a.hypothesis == &hypothesis; });
+  for (const auto* hypothesis : asked) grids.push_back(grid_of(*hypothesis, model, left));
+  for (std::size_t h = 0; h < asked.size(); ++h) {
+    const auto& shapes = grids[h];
+    const bool present = std::ranges::any_of(fit.model.effects, [&](const Active& a) { return a.hypothesis == asked[h]; });
     if (present) continue;
     const std::size_t every = 1 + shapes.size() / most_by_chance;
-    for (std::size_t i = 0; i < shapes.size(); ++i) tasks.push_back({&hypothesis, &shapes[i], i % every == 0});
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      tasks.push_back({asked[h], &shapes[i], against_chance && i % every == 0});
   }
   std::vector<Score> found(tasks.size());
   Eigen::MatrixXd gains(static_cast<Index>(tasks.size()), surrogates);
@@ -181,12 +184,16 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
       const Eigen::MatrixXd drawn = by_block * signs;
       gains.row(static_cast<Index>(t)) = drawn.cwiseProduct(solver.solve(drawn)).colwise().sum();
     }
+    // the wrong sign, or beyond what can be: what the nearest possible value brings
+    Vector possible = amplitude;
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {
-      double& value = found[t].q[amplitudes[a]];
-      value = amplitude[static_cast<Index>(a)];
+      double& value = possible[static_cast<Index>(a)];
       const auto& p = hypothesis.parameters[amplitudes[a]];
-      if (value < p.lowest || value > p.highest) found[t].gain = 0.0;  // the wrong sign, or beyond what can be
+      value = std::clamp(value, p.lowest, p.highest);
+      found[t].q[amplitudes[a]] = value;
     }
+    const Vector off = possible - amplitude;
+    found[t].gain = std::max(0.0, found[t].gain - off.dot(gram * off));
     if (hypothesis.admissible != nullptr && !hypothesis.admissible(found[t].q, fit.model.axis)) found[t].gain = 0.0;
   });
 
@@ -211,6 +218,19 @@ Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) 
   result.chance.assign(largest.data(), largest.data() + largest.size());
   std::ranges::sort(result.chance);
   return result;
+}
+
+}  // namespace
+
+Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening) {
+  std::vector<const Hypothesis*> all;
+  for (const auto& hypothesis : hypotheses()) all.push_back(&hypothesis);
+  return screen(all, true, fitter, fit, whitening);
+}
+
+std::vector<Score> scores_of(const std::vector<const Hypothesis*>& only, const Fitter& fitter, const Fit& fit,
+                             const Whitening& whitening) {
+  return screen(only, false, fitter, fit, whitening).scores;
 }
 
 }  // namespace feedtwin::tools::diagnosis

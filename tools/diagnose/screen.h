@@ -28,5 +28,8 @@ struct Screen {
 [[nodiscard]] Active at_zero(const Score& score);
 
 [[nodiscard]] Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening);
+/// Some hypotheses alone, without asking what chance does.
+[[nodiscard]] std::vector<Score> scores_of(const std::vector<const Hypothesis*>& only, const Fitter& fitter, const Fit& fit,
+                                           const Whitening& whitening);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -77,9 +77,10 @@ class Search {
   SearchResult run() {
     SearchResult result;
     const Candidate nominal{fitter_.nominal(), {}};
-    whitening_ = Whitening::estimate(fitter_.model(), fitter_.model().residual(nominal.axis, {}));
+    whitening_ = fitter_.colour_of(fitter_.model().residual(nominal.axis, {}));
     progress_("recalibrating the nominal numbers");
     fit_ = fitter_.fit_with_colour(nominal, whitening_, rounds, iterations);
+    try_wider_stribeck();
     result.recalibrated = fit_;
     for (std::size_t step = 0; step < 3 * bar_.most_effects; ++step) {
       progress_(fmt::format("asking {} hypotheses about the residual", hypotheses().size()));
@@ -97,6 +98,25 @@ class Search {
   }
 
  private:
+  /// A Stribeck velocity that is several times off has an optimum of its own, which no small step finds.
+  void try_wider_stribeck() {
+    constexpr double worth = 30.0;
+    std::optional<Fit> best;
+    for (const double factor : {4.0, 16.0}) {
+      Candidate start = fit_.model;
+      for (auto* contact : {&start.axis.ball_screw, &start.axis.guide}) {
+        contact->stribeck_m_per_s.pos *= factor;
+        contact->stribeck_m_per_s.neg *= factor;
+      }
+      Fit other = fitter_.fit(start, whitening_, 2 * iterations);
+      if (other.cost < fit_.cost - worth && (!best || other.cost < best->cost)) best = std::move(other);
+    }
+    if (!best) return;
+    progress_(
+        fmt::format("a Stribeck velocity of {:.2g} m/s explains more", best->model.axis.ball_screw.stribeck_m_per_s.pos));
+    fit_ = fitter_.fit_with_colour(best->model, whitening_, rounds, iterations);
+  }
+
   /// The best of the hypotheses that pass the bar, refitted jointly.
   bool add_best() {
     std::optional<Fit> best;
@@ -130,8 +150,9 @@ class Search {
     return true;
   }
 
-  void drop(std::size_t effect, const Candidate& less) {
-    progress_("without " + std::string(fit_.model.effects[effect].hypothesis->id));
+  void drop(std::size_t effect, const Candidate& less, const Verdict& why) {
+    progress_(fmt::format("without {}: gain {:.0f}, surprise {:.0f}, strength {:.2f}",
+                          fit_.model.effects[effect].hypothesis->id, why.gain, why.surprise, why.strength));
     dropped_.insert(fit_.model.effects[effect].hypothesis);
     chances_.erase(chances_.begin() + static_cast<std::ptrdiff_t>(effect));
     earlier_.erase(earlier_.begin() + static_cast<std::ptrdiff_t>(effect));
@@ -145,15 +166,16 @@ class Search {
       std::size_t weakest = 0;
       double least = 1e300;
       Candidate less;
+      Verdict why;
       for (std::size_t i = 0; i < fit_.model.effects.size(); ++i) {
         const auto& active = fit_.model.effects[i];
         const Fit other = fitter_.fit(without(fit_.model, i), whitening_, iterations);
         const auto verdict = judged(fitter_, fit_, other, *active.hypothesis, bar_);
         const bool needed = verdict.enough && possible(active, fit_.model.axis);
         if (needed || verdict.gain > least) continue;
-        least = verdict.gain, weakest = i, less = other.model, again = true;
+        least = verdict.gain, weakest = i, less = other.model, why = verdict, again = true;
       }
-      if (again) drop(weakest, less);
+      if (again) drop(weakest, less, why);
     }
   }
 
@@ -230,7 +252,7 @@ class Search {
       const bool nearly_all = 4 * folds >= 3 * bar_.folds;
       const bool holds = by_surprise || nearly_all || (on_unseen > 0.4 * verdict.gain && folds >= bar_.folds_that_gain);
       if (!holds || !verdict.enough || verdict.strength < bar_.beside * largest || !possible(effect, fit_.model.axis)) {
-        drop(i, less[i].model);
+        drop(i, less[i].model, verdict);
         return false;
       }
     }

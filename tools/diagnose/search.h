@@ -18,7 +18,7 @@ struct Bar {
   double per_parameter = 8.0;    ///< and so much more for each further parameter
   double force_N = 0.5;          ///< where less is left over, strength is counted against this
   double slip_m = 5e-8, power_W = 0.03;
-  double absorbed_gain = 40.0;  ///< of what the nominal numbers can nearly do: fall of the cost with their deviations
+  double absorbed_gain = 25.0;  ///< of what the nominal numbers can nearly do: fall of the cost with their deviations
   double absorbed_strength = 0.15;
   double number_gain = 150.0;     ///< the same for a number of the model (payload, gravity) that leaves next to nothing over
   double against_nominal = 8.0;   ///< rise of the nominal numbers' squared deviations that makes an absorbed one doubtful

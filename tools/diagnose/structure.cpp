@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::size_t folds = 4;
 
-/// A row of the remainder and what may explain it.
+/// When and where a row is, and how it came there.
 struct Moment {
-  double force_N, position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, time_s;
+  double position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, time_s;
   std::vector<double> past;  ///< accelerations before
   std::size_t run, fold;
 };
@@ -20,45 +20,36 @@ struct Moment {
 constexpr int past_steps = 24;
 constexpr double past_step_s = 0.012, stretch_s = 1.0;
 
-std::vector<Moment> moments_of(const InverseModel& model, const Candidate& at) {
-  const Vector residual = model.residual(at.axis, at.effects);
-  std::vector<Moment> all;
-  for (std::size_t run = 0; run < model.tracks().size(); ++run) {
-    const Track& track = model.tracks()[run];
-    Vector sum;
-    const Segment* any = nullptr;
-    for (const auto& s : model.segments()) {
-      const auto& e = model.equations()[s.equation];
-      if (s.run != run || s.size == 0 || e.slip || e.power) continue;
-      add(sum, residual.segment(s.start, s.size));
-      any = &s;
-    }
-    if (any == nullptr) continue;
-    const Index step = std::max<Index>(1, std::lround(past_step_s / track.sample_s));
-    const auto acceleration = [&](Index k) {  // over two steps about k
-      const Index a = std::clamp<Index>(k - step / 2, 0, track.size - 1),
-                  b = std::clamp<Index>(k + step / 2, 0, track.size - 1);
-      return b > a ? (track.centred_m_per_s[b] - track.centred_m_per_s[a]) / (static_cast<double>(b - a) * track.sample_s)
-                   : 0.0;
-    };
-    for (Index i = 0; i < any->size; ++i) {
-      if (!model.settled(any->start + i)) continue;
-      const Index k = model.sample_of(*any, i);
-      const double t = static_cast<double>(k) * track.sample_s;
-      Moment m{sum[i],
-               track.position_m[k],
-               track.centred_m_per_s[k],
-               acceleration(k),
-               track.since_reversal_s[k],
-               t,
-               {},
-               run,
-               (static_cast<std::size_t>(t / stretch_s) + run) % folds};
-      for (int j = 0; j < past_steps; ++j) m.past.push_back(acceleration(std::max<Index>(0, k - j * step)));
-      all.push_back(std::move(m));
-    }
+bool of_force(const Equation& equation) {
+  return !equation.slip && !equation.power;
+}
+
+/// The settled rows of one run's force equations, which all have the same.
+void add_moments(const InverseModel& model, const Segment& segment, std::vector<Moment>& all, std::vector<Index>& rows) {
+  const Track& track = model.tracks()[segment.run];
+  const Index step = std::max<Index>(1, std::lround(past_step_s / track.sample_s));
+  const auto acceleration = [&](Index k) {  // over two steps about k
+    const Index a = std::clamp<Index>(k - step / 2, 0, track.size - 1),
+                b = std::clamp<Index>(k + step / 2, 0, track.size - 1);
+    return b > a ? (track.centred_m_per_s[b] - track.centred_m_per_s[a]) / (static_cast<double>(b - a) * track.sample_s)
+                 : 0.0;
+  };
+  for (Index i = 0; i < segment.size; ++i) {
+    if (!model.settled(segment.start + i)) continue;
+    const Index k = model.sample_of(segment, i);
+    const double t = static_cast<double>(k) * track.sample_s;
+    Moment m{track.position_m[k],
+             track.centred_m_per_s[k],
+             acceleration(k),
+             track.since_reversal_s[k],
+             t,
+             {},
+             segment.run,
+             (static_cast<std::size_t>(t / stretch_s) + segment.run) % folds};
+    for (int j = 0; j < past_steps; ++j) m.past.push_back(acceleration(std::max<Index>(0, k - j * step)));
+    all.push_back(std::move(m));
+    rows.push_back(i);
   }
-  return all;
 }
 
 /// Hat functions over a range: adds them, times a weight, to one row.
@@ -113,38 +104,84 @@ double Structure::structured_N() const {
   return remainder_N * std::sqrt(std::max(0.0, share));
 }
 
-Structure remaining_structure(const InverseModel& model, const Candidate& at) {
-  const auto all = moments_of(model, at);
-  Structure found;
-  if (all.size() < 400) return found;
-  const Eigen::MatrixXd rows = regressors_of(all);
-  const Index width = rows.rows(), count = rows.cols();
-  std::vector<std::vector<Index>> members(folds);
-  Vector y(count);
-  for (Index k = 0; k < count; ++k) {
-    const auto& m = all[static_cast<std::size_t>(k)];
-    y[k] = m.force_N;
-    members[m.fold].push_back(k);
+RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(model), places_(model.tracks().size()) {
+  constexpr std::size_t least_rows = 400;
+  std::vector<Moment> all;
+  std::vector<bool> done(places_.size(), false);
+  for (const auto& segment : model.segments()) {
+    if (!of_force(model.equations()[segment.equation]) || done[segment.run]) continue;
+    done[segment.run] = true;
+    add_moments(model, segment, all, places_[segment.run]);
   }
+  if (all.size() < least_rows) return;
+  rows_ = regressors_of(all);
+  members_.resize(folds);
+  for (std::size_t k = 0; k < all.size(); ++k) members_[all[k].fold].push_back(static_cast<Index>(k));
   std::vector<Eigen::MatrixXd> normal;
-  std::vector<Vector> right;
-  for (const auto& own : members) {
-    const Eigen::MatrixXd part = rows(Eigen::all, own);
+  for (const auto& own : members_) {
+    const Eigen::MatrixXd part = rows_(Eigen::all, own);
     normal.push_back(part * part.transpose());
-    right.push_back(part * y(own));
   }
-  double after = 0.0;
   for (std::size_t f = 0; f < folds; ++f) {
-    Eigen::MatrixXd n = Eigen::MatrixXd::Zero(width, width);
-    Vector r = Vector::Zero(width);
+    Eigen::MatrixXd others = Eigen::MatrixXd::Zero(rows_.rows(), rows_.rows());
     for (std::size_t g = 0; g < folds; ++g)
-      if (g != f) n += normal[g], r += right[g];
-    for (Index i = 0; i < width; ++i) n(i, i) += 10.0 + 0.02 * n(i, i);  // as if ten more rows had said zero
-    const Vector weight = n.ldlt().solve(r);
-    for (const Index k : members[f]) after += std::pow(y[k] - weight.dot(rows.col(k)), 2);
+      if (g != f) others += normal[g];
+    for (Index i = 0; i < others.rows(); ++i)
+      others(i, i) += 10.0 + 0.02 * others(i, i);  // as if ten more rows had said zero
+    solvers_.emplace_back(others);
   }
-  const double before = y.squaredNorm();
-  found.remainder_N = std::sqrt(before / static_cast<double>(count));
+}
+
+Vector RepeatableStructure::unseen(const Vector& y) const {
+  std::vector<Vector> right;
+  for (const auto& own : members_) right.push_back(rows_(Eigen::all, own) * y(own));
+  Vector predicted = Vector::Zero(y.size());
+  for (std::size_t f = 0; f < members_.size(); ++f) {
+    Vector others = Vector::Zero(rows_.rows());
+    for (std::size_t g = 0; g < members_.size(); ++g)
+      if (g != f) others += right[g];
+    const Vector weight = solvers_[f].solve(others);
+    for (const Index k : members_[f]) predicted[k] = weight.dot(rows_.col(k));
+  }
+  return predicted;
+}
+
+Vector RepeatableStructure::gathered(const Vector& residual, std::size_t equation) const {
+  Vector y = Vector::Zero(rows_.cols());
+  Index at = 0;
+  for (std::size_t run = 0; run < places_.size(); ++run)
+    for (const auto& s : model_.segments()) {
+      if (s.run != run || s.equation != equation) continue;
+      for (const Index i : places_[run]) y[at++] = residual[s.start + i];
+    }
+  return y;
+}
+
+Vector RepeatableStructure::part_of(const Vector& residual) const {
+  Vector part = Vector::Zero(residual.size());
+  if (rows_.cols() == 0) return part;
+  for (std::size_t e = 0; e < model_.equations().size(); ++e) {
+    if (!of_force(model_.equations()[e])) continue;
+    const Vector y = gathered(residual, e), predicted = unseen(y);
+    if ((y - predicted).squaredNorm() > y.squaredNorm()) continue;  // nothing that repeats
+    Index at = 0;
+    for (std::size_t run = 0; run < places_.size(); ++run)
+      for (const auto& s : model_.segments()) {
+        if (s.run != run || s.equation != e) continue;
+        for (const Index i : places_[run]) part[s.start + i] = predicted[at++];
+      }
+  }
+  return part;
+}
+
+Structure RepeatableStructure::remaining(const Vector& residual) const {
+  Structure found;
+  if (rows_.cols() == 0) return found;
+  Vector y = Vector::Zero(rows_.cols());
+  for (std::size_t e = 0; e < model_.equations().size(); ++e)
+    if (of_force(model_.equations()[e])) y += gathered(residual, e);
+  const double before = y.squaredNorm(), after = (y - unseen(y)).squaredNorm();
+  found.remainder_N = std::sqrt(before / static_cast<double>(y.size()));
   found.share = before > 0.0 ? 1.0 - after / before : 0.0;
   return found;
 }

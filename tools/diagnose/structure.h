@@ -3,7 +3,10 @@
 // time since reversal and acceleration, speed-weighted place, the acceleration's past, friction that beats - learned on
 // three quarters of the seconds and judged on the fourth, in turn.
 
-#include "tools/diagnose/fit.h"
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "tools/diagnose/inverse_model.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -13,6 +16,26 @@ struct Structure {
   [[nodiscard]] double structured_N() const;
 };
 
-[[nodiscard]] Structure remaining_structure(const InverseModel& model, const Candidate& at);
+class RepeatableStructure {
+ public:
+  /// @param model must outlive this
+  explicit RepeatableStructure(const InverseModel& model);
+
+  /// Of the sum of all force equations.
+  [[nodiscard]] Structure remaining(const Vector& residual) const;
+  /// What the additive model predicts of each force equation's residual on seconds that it has not seen; zero where it has
+  /// nothing to say. What is left without it is nearer to noise.
+  [[nodiscard]] Vector part_of(const Vector& residual) const;
+
+ private:
+  [[nodiscard]] Vector unseen(const Vector& y) const;
+  [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
+
+  const InverseModel& model_;
+  std::vector<std::vector<Index>> places_;             ///< settled rows of every run
+  Eigen::MatrixXd rows_;                               ///< a column a settled row, runs in turn
+  std::vector<std::vector<Index>> members_;            ///< of each fold
+  std::vector<Eigen::LDLT<Eigen::MatrixXd>> solvers_;  ///< from the other folds
+};
 
 }  // namespace feedtwin::tools::diagnosis

@@ -22,11 +22,12 @@ const char* verdict_of(const Diagnosis& result) {
   return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
 }
 
-bool beyond_the_catalogue(const InverseModel& model, const SearchResult& found, const Candidate& final,
+bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                           const std::function<void(std::string_view)>& progress) {
   constexpr double least_share = 0.3, least_N = 0.7, unexplained = 0.2;
-  const Structure before = remaining_structure(model, found.recalibrated.model);
-  const Structure after = remaining_structure(model, final);
+  const auto& structure_of = fitter.structure();
+  const Structure before = structure_of.remaining(found.recalibrated.residual);
+  const Structure after = structure_of.remaining(fitter.model().residual(final.axis, final.effects));
   const double structure = std::pow(after.structured_N(), 2);
   const double explained = std::max(0.0, before.remainder_N * before.remainder_N - after.remainder_N * after.remainder_N);
   progress(fmt::format("structure: {:.2g} N of {:.2g} N left over; before naming {:.2g} N of {:.2g} N", after.structured_N(),

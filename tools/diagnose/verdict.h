@@ -15,7 +15,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] const char* verdict_of(const Diagnosis& result);
 
 /// Is too much of what the recalibrated model leaves over structure that the named effects do not explain?
-[[nodiscard]] bool beyond_the_catalogue(const InverseModel& model, const SearchResult& found, const Candidate& final,
+[[nodiscard]] bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                                         const std::function<void(std::string_view)>& progress);
 
 /// Does the force tell of it, rather than scale or power meter?

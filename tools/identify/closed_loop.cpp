@@ -22,6 +22,16 @@ double drive_power_W(const plant::MotorParameters& motor, double force_N, double
   return (forward ? linear.pos : linear.neg) * std::abs(v) + (forward ? quadratic.pos : quadratic.neg) * v * v + force_N * v;
 }
 
+/// Where the encoder, with all that is wrong with it, shows the position.
+void place_as_shown(plant::FeedAxis& axis, double shown_m, double velocity_m_per_s) {
+  double true_m = shown_m;
+  for (int i = 0; i < 3; ++i) {
+    axis.place(true_m, velocity_m_per_s);
+    true_m -= axis.shown_position_m() - shown_m;
+  }
+  axis.place(true_m, velocity_m_per_s);
+}
+
 }  // namespace
 
 std::vector<controllers::Reference> with_derivatives(std::span<const double> position_m, double tick_s) {
@@ -68,7 +78,7 @@ lanes::RecordView ClosedLoopRun::view() const noexcept {
 Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m) {
   const auto view = run.view();
   const double transmission = axis.model().transmission_rad_per_m;
-  axis.place(view.position_m[0], view.start_velocity_m_per_s);
+  place_as_shown(axis, view.position_m[0], view.start_velocity_m_per_s);
   StandIn<double> stand_in(view.stand_in, view.stand_in_mass_kg, view.tick_s);
   controllers::CascadeLaw<double> cascade(view.gains);
   cascade.reset(view.position_m[0] - position_offset_m);
@@ -78,7 +88,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
     channel->resize(view.samples);
   }
   for (std::size_t i = 0; i < view.samples; ++i) {
-    const double shown_m = axis.signals().position_m - position_offset_m;
+    const double shown_m = axis.shown_position_m() - position_offset_m;
     out.position_m[i] = shown_m;
     out.scale_position_m[i] = axis.signals().scale_position_m - position_offset_m;
     out.torque_Nm[i] = view.reference != nullptr

@@ -87,7 +87,7 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
   LeastSquaresProblem problem = problem_for(parameters, stack, settings.most_iterations);
   LeastSquaresSolution at;
   for (int round = 0; round < settings.rounds; ++round) {
-    stack.weigh(problem.start, round > 0);
+    stack.weigh(problem.start, round > 0 || settings.coloured_from_start);
     at = solve_least_squares(problem);
     if (settings.progress) {
       settings.progress(fmt::format("round {} of {}: {} iterations, weighted rms {:.4f}", round + 1, settings.rounds,
@@ -96,11 +96,14 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
     problem.start = at.point;
     adapt_steps(at, parameters, problem.step);
   }
-  linearise_both_ways(problem, at);
   OutputErrorFit fit;
-  const MatrixXd inverse = inverse_information(at);
-  fit.covariance = covariance_of(at, stack, inverse, rounding_effect(at, inverse, stack, settings.encoder_grids));
-  fit.trades = trades_of(fit.covariance, parameters, settings.told_below);
+  fit.covariance = MatrixXd::Zero(at.point.size(), at.point.size());
+  if (settings.intervals) {
+    linearise_both_ways(problem, at);
+    const MatrixXd inverse = inverse_information(at);
+    fit.covariance = covariance_of(at, stack, inverse, rounding_effect(at, inverse, stack, settings.encoder_grids));
+    fit.trades = trades_of(fit.covariance, parameters, settings.told_below);
+  }
   fit.cost = at.cost;
   fit.residuals = static_cast<std::size_t>(at.residuals.size() - stack.prior_rows());
   fit.simulations = stack.simulations();

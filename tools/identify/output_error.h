@@ -36,8 +36,10 @@ struct OutputErrorSettings {
   /// Rows at rest and about it count by what an encoder's rounding leaves of them: a rest's mean as one reading, the ticks
   /// of sticking and setting off by a few deviations at most. Not where what is missing may act at rest.
   bool doubt_rests = true;
-  int encoder_grids = 32;  ///< that the effect of the encoder's rounding is seen on; fewer than 2: it is left out
-  int rounds = 3;          ///< of fitting and weighing anew
+  int encoder_grids = 32;            ///< that the effect of the encoder's rounding is seen on; fewer than 2: it is left out
+  int rounds = 3;                    ///< of fitting and weighing anew
+  bool coloured_from_start = false;  ///< else the first round takes the residuals for white
+  bool intervals = true;             ///< else the covariance is left out, and its simulations with it
   int most_iterations = 25;
   const Ranks* ranks = nullptr;                           ///< who shares the simulations; nullptr: nobody
   std::function<void(const std::string& line)> progress;  ///< told of every round; may be empty

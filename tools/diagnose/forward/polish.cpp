@@ -13,14 +13,18 @@ constexpr double no_prior = 1e9;
 /// The base parameters, then the effects' own that are not fixed.
 std::vector<FitParameter> unknowns_of(const Fitter& fitter, const Candidate& start) {
   std::vector<FitParameter> unknowns;
+  const Vector deviations = fitter.deviations(start.axis);
   for (std::size_t i = 0; i < fitter.base().size(); ++i) {
     const auto& p = fitter.base()[i];
+    const double nominal = value_of(p, fitter.nominal()), now = value_of(p, start.axis);
+    const double linear = (now - nominal) / fitter.tolerance(i), believed = deviations[static_cast<Index>(i)];
     unknowns.push_back({.key = std::string(p.entry->key),
-                        .nominal = value_of(p, fitter.nominal()),
+                        .nominal = nominal,
                         .lowest = p.entry->lowest,
                         .highest = p.entry->highest,
                         .scale = fitter.tolerance(i),
-                        .start = value_of(p, start.axis)});
+                        .prior = std::abs(believed) > 1.0 ? std::max(1.0, linear / believed) : 1.0,
+                        .start = now});
   }
   for (const auto& effect : start.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j) {
@@ -75,6 +79,8 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   output_error.encoder_grids = 0;
   output_error.rounds = settings.rounds;
   output_error.most_iterations = settings.most_iterations;
+  output_error.coloured_from_start = settings.coloured_from_start;
+  output_error.intervals = settings.intervals;
   const auto fit = fit_output_error(forward.runs(), unknowns, simulator, output_error);
   Polished polished{at(fitter, start, fit.point()), fit.covariance, fit.cost};
   for (std::size_t i = 0; i < fitter.base().size(); ++i) {

@@ -16,6 +16,7 @@ struct Polished {
 
 struct PolishSettings {
   int rounds = 2, most_iterations = 6;
+  bool coloured_from_start = false, intervals = true;
 };
 
 [[nodiscard]] Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candidate& start,

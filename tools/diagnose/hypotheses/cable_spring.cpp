@@ -16,8 +16,11 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"stiffness_N_per_m", q[0]}, {"neutral_m", q[0] != 0.0 ? -q[1] / q[0] : 0.0}};
 }
 
-bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.0;
+/// What pulls towards a point far beyond the stroke is a constant force.
+bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
+  constexpr double farthest_strokes = 2.0;
+  const double neutral_m = -q[1] / q[0];
+  return q[0] > 0.0 && std::abs(neutral_m - axis.axis.stroke_centre_m) < farthest_strokes * axis.axis.stroke_m;
 }
 
 }  // namespace

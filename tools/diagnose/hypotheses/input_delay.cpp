@@ -19,7 +19,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 1.5e-4;
+  return q[0] > 2e-5;
 }
 
 }  // namespace

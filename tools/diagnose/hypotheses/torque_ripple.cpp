@@ -17,7 +17,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return std::hypot(q[0], q[1]) > 4e-3;
+  return std::hypot(q[0], q[1]) > 1e-3;
 }
 
 }  // namespace

@@ -1,0 +1,113 @@
+#include "tools/diagnose/forward/arbiter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/polish.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double nats_per_parameter = 4.0;
+constexpr double clearly_nats = 12.0, clearly_deviations = 1.5;
+/// A rival that the inverse model finds this much worse, as a share of what the named one brings, is not simulated.
+constexpr double hopeless = 0.5;
+constexpr int iterations = 6;
+
+bool confused(const Hypothesis& one, const Hypothesis& other) {
+  return std::ranges::find(one.confused_with, other.id) != one.confused_with.end() ||
+         std::ranges::find(other.confused_with, one.id) != other.confused_with.end();
+}
+
+bool there(const Candidate& model, const Hypothesis* hypothesis) {
+  return std::ranges::any_of(model.effects, [hypothesis](const Active& a) { return a.hypothesis == hypothesis; });
+}
+
+std::size_t freedom(const Candidate& model) {
+  std::size_t count = 0;
+  for (const auto& effect : model.effects)
+    count += static_cast<std::size_t>(
+        std::ranges::count_if(effect.hypothesis->parameters, [](const auto& p) { return p.kind != Kind::fixed; }));
+  return count;
+}
+
+bool worth_naming(const Active& active, const plant::AxisParameters& axis) {
+  const auto& h = *active.hypothesis;
+  return (h.finding == nullptr || h.finding(active.q)) && (h.admissible == nullptr || h.admissible(active.q, axis));
+}
+
+Candidate without(const Candidate& model, std::size_t effect) {
+  Candidate less = model;
+  less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  return less;
+}
+
+}  // namespace
+
+Arbiter::Ruling Arbiter::rule(const Fit& fit) const {
+  PolishSettings settings;
+  settings.rounds = 1;
+  settings.most_iterations = 4;
+  settings.coloured_from_start = true;
+  settings.intervals = false;
+  Ruling ruling{fit, polish(forward_, fitter_, fit.model, settings).model, {}, 0.0};
+  ruling.likelihood = likelihood(forward_, extended(ruling.model));
+  if (const auto start = likelihood(forward_, extended(fit.model)); start.total() > ruling.likelihood.total())
+    ruling.model = fit.model, ruling.likelihood = start;
+  ruling.value = ruling.likelihood.total() - 0.5 * fitter_.deviations(ruling.model.axis).squaredNorm() -
+                 nats_per_parameter * static_cast<double>(freedom(ruling.model));
+  return ruling;
+}
+
+bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e) const {
+  const auto* named = fit.model.effects[e].hypothesis;
+  const auto entry = std::ranges::find(found.found, named, [](const Found& one) { return one.effect.hypothesis; });
+  if (entry == found.found.end()) return false;
+  std::vector<const Hypothesis*> asked = entry->rivals;
+  for (const auto& other : hypotheses())
+    if (confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);
+  std::erase_if(asked, [&](const Hypothesis* other) { return there(fit.model, other); });
+  const Fit less = fitter_.fit(without(fit.model, e), found.whitening, iterations);
+  for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {
+    std::erase(entry->rivals, score.hypothesis);
+    if (score.gain <= 0.0) continue;
+    Candidate start = less.model;
+    start.effects.push_back(at_zero(score));
+    std::rotate(start.effects.begin() + static_cast<std::ptrdiff_t>(e), start.effects.end() - 1, start.effects.end());
+    const Fit other = fitter_.fit(start, found.whitening, iterations);
+    if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !worth_naming(other.model.effects[e], other.model.axis))
+      continue;
+    const Ruling rival = rule(other);
+    if (!worth_naming(rival.model.effects[e], rival.model.axis)) continue;
+    const auto difference = compared(rival.likelihood, now.likelihood);
+    progress_(fmt::format("closed loop, {} in place of {}: {:+.0f} nats, {:+.1f} deviations", score.hypothesis->id,
+                          named->id, rival.value - now.value, difference.deviations));
+    const bool clear =
+        std::abs(rival.value - now.value) > clearly_nats && std::abs(difference.deviations) > clearly_deviations;
+    if (!clear) entry->rivals.push_back(score.hypothesis);
+    if (!clear || rival.value < now.value) continue;
+    entry->effect = rival.model.effects[e];
+    entry->rivals.clear();
+    fit = rival.fit;
+    now = rival;
+    return true;
+  }
+  return false;
+}
+
+Candidate Arbiter::settle(SearchResult& found, Fit& fit) const {
+  if (found.found.empty()) return fit.model;
+  constexpr int most_exchanges = 3;
+  Ruling now = rule(fit);
+  int exchanges = 0;
+  for (std::size_t e = 0; e < fit.model.effects.size();) {
+    const bool again = exchanges < most_exchanges && exchanged(found, fit, now, e);
+    if (again) ++exchanges;
+    e = again ? 0 : e + 1;
+  }
+  return now.model;
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,35 @@
+#pragma once
+// The second engine's judgement between explanations that are easily confused: each is fitted anew and simulated in closed
+// loop, and the likelihoods of what is left over are compared. Takes a better one in a named one's place; where none is
+// clearly better both stay in question; one that is clearly worse is ruled out.
+
+#include "tools/diagnose/forward/likelihood.h"
+#include "tools/diagnose/search.h"
+
+namespace feedtwin::tools::diagnosis {
+
+class Arbiter {
+ public:
+  Arbiter(const ForwardModel& forward, const Fitter& fitter, const std::function<void(std::string_view)>& progress)
+      : forward_(forward), fitter_(fitter), progress_(progress) {}
+
+  /// Settles every named effect of the fit; what it changes is changed in both.
+  /// @return the fit's model with its numbers as the closed loop has them
+  Candidate settle(SearchResult& found, Fit& fit) const;
+
+ private:
+  struct Ruling {
+    Fit fit;          ///< by the inverse model
+    Candidate model;  ///< polished in closed loop
+    Likelihood likelihood;
+    double value = 0.0;  ///< nats, less what its parameters cost
+  };
+  [[nodiscard]] Ruling rule(const Fit& fit) const;
+  [[nodiscard]] bool exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t effect) const;
+
+  const ForwardModel& forward_;
+  const Fitter& fitter_;
+  const std::function<void(std::string_view)>& progress_;
+};
+
+}  // namespace feedtwin::tools::diagnosis

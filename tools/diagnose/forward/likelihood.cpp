@@ -1,0 +1,84 @@
+#include "tools/diagnose/forward/likelihood.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "tools/identify/channel_residuals.h"
+#include "tools/identify/whitening.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double stretch_s = 0.25;
+constexpr std::size_t highest_order = 24;
+constexpr double least_reading = 0.2;  // of the rms: a meter's error is partly of its reading
+constexpr double smallest_sigma = 1e-9;
+
+/// A channel's residuals of all runs, and the stretch that each is of.
+struct Channel {
+  std::vector<std::vector<double>> residuals;
+  std::vector<std::vector<std::size_t>> stretch;
+};
+
+void even_out_power(std::vector<double>& residual, std::span<const double> power_W, const MeteredPower& meter) {
+  double squares = 0.0;
+  for (const std::size_t row : meter.rows) squares += power_W[row] * power_W[row];
+  const double rms_W = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, meter.rows.size())));
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    residual[i] /= std::hypot(std::abs(power_W[meter.rows[i]]), least_reading * rms_W) + 1e-12;
+}
+
+}  // namespace
+
+double Likelihood::total() const {
+  return std::accumulate(stretches.begin(), stretches.end(), 0.0);
+}
+
+Likelihood likelihood(const ForwardModel& forward, const plant::AxisParameters& axis) {
+  const auto simulated = forward.simulate(axis);
+  std::array<Channel, fitted_channels.size()> channels;
+  Likelihood found;
+  for (std::size_t r = 0; r < forward.runs().size(); ++r) {
+    const auto& recording = forward.runs()[r].recording();
+    const auto power = recording.at(channel::power_W);
+    const auto meter = power.empty() ? MeteredPower{} : metered_rows(power);
+    auto residuals = channel_residuals(recording, meter, simulated[r]);
+    const std::size_t first = found.stretches.size();
+    const auto length = static_cast<std::size_t>(std::max(1.0, std::round(stretch_s / recording.sample_s)));
+    found.stretches.resize(first + recording.size() / length + 1, 0.0);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      if (residuals[c].empty()) continue;
+      const bool metered = fitted_channels[c] == channel::power_W;
+      if (metered) even_out_power(residuals[c], power, meter);
+      std::vector<std::size_t> at(residuals[c].size());
+      for (std::size_t i = 0; i < at.size(); ++i) at[i] = first + (metered ? meter.rows[i] : i) / length;
+      channels[c].residuals.push_back(std::move(residuals[c]));
+      channels[c].stretch.push_back(std::move(at));
+    }
+  }
+  for (auto& channel : channels) {
+    if (channel.residuals.empty()) continue;
+    const auto whitening = fit_whitening(channel.residuals, highest_order, smallest_sigma);
+    for (std::size_t r = 0; r < channel.residuals.size(); ++r) {
+      whitening.apply(channel.residuals[r]);
+      for (std::size_t i = 0; i < channel.residuals[r].size(); ++i) {
+        const double e = channel.residuals[r][i];
+        found.stretches[channel.stretch[r][i]] -= std::log(whitening.sigma) + 0.5 * e * e;
+      }
+    }
+  }
+  return found;
+}
+
+Comparison compared(const Likelihood& one, const Likelihood& other) {
+  const std::size_t n = std::min(one.stretches.size(), other.stretches.size());
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < n; ++i) sum += one.stretches[i] - other.stretches[i];
+  const double mean = sum / static_cast<double>(std::max<std::size_t>(1, n));
+  for (std::size_t i = 0; i < n; ++i) squares += std::pow(one.stretches[i] - other.stretches[i] - mean, 2);
+  return {sum, sum / (std::sqrt(squares) + 1e-9)};
+}
+
+}  // namespace feedtwin::tools::diagnosis
