@@ -1,0 +1,91 @@
+// The second engine's judgement between confused explanations, and what its likelihoods and the noise's colour rest on.
+
+#include "tools/diagnose/forward/arbiter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/made_case.h"
+#include "tools/diagnose/forward/extended_axis.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+const std::function<void(std::string_view)> silent = [](std::string_view) {};
+
+/// Runs of the source's axis with cogging that the nominal axis does not have.
+struct Cogged {
+  tools::Case data;
+  InverseModel model;
+  Fitter fitter;
+  ForwardModel forward;
+  Candidate nominal;
+  Whitening whitening;
+
+  Cogged()
+      : data(made()),
+        model(make_tracks(data.fit, data.axis), data.axis),
+        fitter(model, data.axis),
+        forward(data.fit, data),
+        nominal{data.axis, {}},
+        whitening(fitter.colour_of(model.residual(data.axis, {}))) {}
+
+  static tools::Case made() {
+    auto truth = plant::source_axis();
+    truth.effects.push_back(tests::effect("cogging", {{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}}));
+    return tests::short_case(truth, plant::source_axis());
+  }
+  /// What the arbiter leaves of this explanation.
+  [[nodiscard]] std::string_view settled(const Active& explanation) const {
+    Fit fit = fitter.fit({data.axis, {explanation}}, whitening, 6);
+    SearchResult result;
+    result.whitening = whitening;
+    result.found.push_back({.effect = fit.model.effects[0]});
+    (void)Arbiter(forward, fitter, silent).settle(result, fit);
+    EXPECT_EQ(result.found[0].effect.hypothesis, fit.model.effects[0].hypothesis);
+    return fit.model.effects[0].hypothesis->id;
+  }
+};
+
+TEST(Likelihood, PrefersTheAxisThatMadeTheRunsAndNothingToItself) {
+  const Cogged made;
+  const auto without = likelihood(made.forward, made.data.axis),
+             with = likelihood(made.forward, extended({made.data.axis, {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}}}));
+  EXPECT_EQ(compared(with, with).nats, 0.0);
+  EXPECT_GT(compared(with, without).nats, 100.0);
+  EXPECT_GT(compared(with, without).deviations, 3.0);
+  EXPECT_NEAR(compared(without, with).nats, -compared(with, without).nats, 1e-6);
+}
+
+TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
+  const Cogged made;
+  EXPECT_EQ(made.settled({&hypothesis("torque_ripple"), {0.0, 0.0, 8.0}}), "cogging");
+  EXPECT_EQ(made.settled({&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
+}
+
+TEST(RepeatableStructure, FindsWhatRepeatsAndNothingInNoise) {
+  const Cogged made;
+  const auto& structure = made.fitter.structure();
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  Vector noise(made.model.rows()), force(made.model.rows());
+  for (const auto& s : made.model.segments())
+    for (Index i = 0; i < s.size; ++i) {
+      const double x = made.model.tracks()[s.run].position_m[made.model.sample_of(s, i)];
+      noise[s.start + i] = normal(random);
+      force[s.start + i] = 3.0 * std::sin(200.0 * x);
+    }
+  const double in_noise = structure.part_of(noise).norm() / noise.norm();
+  EXPECT_LT(in_noise, 0.3);
+  const Vector both = noise + force, left = both - structure.part_of(both);
+  double of_settled = 0.0, noise_of_settled = 0.0;
+  for (Index k = 0; k < made.model.rows(); ++k)
+    if (made.model.settled(k)) of_settled += left[k] * left[k], noise_of_settled += noise[k] * noise[k];
+  EXPECT_LT(std::sqrt(of_settled / noise_of_settled), 1.3) << "with the force it would be 2.3";
+}
+
+}  // namespace
+}  // namespace feedtwin
