@@ -6,6 +6,7 @@
 
 #include "plant/effects/registry.h"
 #include "plant/feed_axis.h"
+#include "plant/parameter_table.h"
 
 namespace feedtwin::plant {
 namespace {

@@ -43,7 +43,9 @@ struct Cogged {
     Fit fit = fitter.fit({data.axis, {explanation}}, whitening, 6);
     SearchResult result;
     result.whitening = whitening;
-    result.found.push_back({.effect = fit.model.effects[0]});
+    Found named;
+    named.effect = fit.model.effects[0];
+    result.found.push_back(named);
     (void)Arbiter(forward, fitter, silent).settle(result, fit);
     EXPECT_EQ(result.found[0].effect.hypothesis, fit.model.effects[0].hypothesis);
     return fit.model.effects[0].hypothesis->id;
@@ -67,24 +69,25 @@ TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
 }
 
 TEST(RepeatableStructure, FindsWhatRepeatsAndNothingInNoise) {
-  const Cogged made;
-  const auto& structure = made.fitter.structure();
+  std::vector<tools::Recording> runs;
+  for (const char* motion : {"sine", "triangle"})
+    runs.push_back(tests::make_recording(plant::source_axis(), {.motion = motion, .duration_s = 8.0}));
+  const InverseModel model(make_tracks(runs, plant::source_axis()), plant::source_axis());
+  const RepeatableStructure structure(model);
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
-  Vector noise(made.model.rows()), force(made.model.rows());
-  for (const auto& s : made.model.segments())
+  Vector noise(model.rows()), force(model.rows());
+  for (const auto& s : model.segments())
     for (Index i = 0; i < s.size; ++i) {
-      const double x = made.model.tracks()[s.run].position_m[made.model.sample_of(s, i)];
+      const double x = model.tracks()[s.run].position_m[model.sample_of(s, i)];
       noise[s.start + i] = normal(random);
-      force[s.start + i] = 3.0 * std::sin(200.0 * x);
+      force[s.start + i] = 400.0 * x;  // a spring
     }
-  const double in_noise = structure.part_of(noise).norm() / noise.norm();
-  EXPECT_LT(in_noise, 0.3);
-  const Vector both = noise + force, left = both - structure.part_of(both);
-  double of_settled = 0.0, noise_of_settled = 0.0;
-  for (Index k = 0; k < made.model.rows(); ++k)
-    if (made.model.settled(k)) of_settled += left[k] * left[k], noise_of_settled += noise[k] * noise[k];
-  EXPECT_LT(std::sqrt(of_settled / noise_of_settled), 1.3) << "with the force it would be 2.3";
+  EXPECT_LT(structure.part_of(noise).norm(), 0.3 * noise.norm());
+  EXPECT_LT(structure.remaining(noise).share, 0.05);
+  const Vector both = noise + force;
+  EXPECT_GT(structure.remaining(both).share, 0.3);
+  EXPECT_LT((both - structure.part_of(both)).norm(), 0.9 * both.norm());
 }
 
 }  // namespace
