@@ -74,7 +74,7 @@ TEST(RepeatableStructure, FindsWhatRepeatsAndNothingInNoise) {
     runs.push_back(tests::make_recording(plant::source_axis(), {.motion = motion, .duration_s = 8.0}));
   const InverseModel model(make_tracks(runs, plant::source_axis()), plant::source_axis());
   const RepeatableStructure structure(model);
-  std::mt19937 random(11);
+  std::mt19937 random(11);  // NOLINT(bugprone-random-generator-seed): the same runs every time
   std::normal_distribution<double> normal;
   Vector noise(model.rows()), force(model.rows());
   for (const auto& s : model.segments())
