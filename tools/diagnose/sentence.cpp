@@ -25,6 +25,8 @@ std::string sentence_of(const NamedEffect& effect) {
     for (auto at = text.find(slot); at != std::string::npos; at = text.find(slot))
       text.replace(at, slot.size(), told(estimate));
   }
+  for (auto at = text.find('{'); at != std::string::npos; at = text.find('{'))
+    text.replace(at, text.find('}', at) + 1 - at, "(not told by these data)");
   text = fmt::format(
       "{}: {}. It makes {:.0f} % of what the recalibrated model leaves over; chance of a false alarm over all "
       "hypotheses {:.1g}.",

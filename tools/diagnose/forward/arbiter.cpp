@@ -64,7 +64,8 @@ Arbiter::Ruling Arbiter::rule(const Fit& fit) const {
 bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e) const {
   const auto* named = fit.model.effects[e].hypothesis;
   const auto entry = std::ranges::find(found.found, named, [](const Found& one) { return one.effect.hypothesis; });
-  if (entry == found.found.end()) return false;
+  // a nuisance only says how the channels read: no name may come of it
+  if (entry == found.found.end() || !worth_naming(fit.model.effects[e], fit.model.axis)) return false;
   std::vector<const Hypothesis*> asked = entry->rivals;
   for (const auto& other : hypotheses())
     if (confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);
