@@ -23,6 +23,7 @@ std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const pl
   const auto before = runs.nrmse(nominal), middle = runs.nrmse(recalibrated_only), after = runs.nrmse(final);
   const auto floor = runs.noise_floor(final);
   for (const auto& [channel, value] : before)
+    // an estimate above what was reached is no floor
     out[channel] = {value, middle.at(channel), after.at(channel), std::min(floor.at(channel), after.at(channel))};
   return out;
 }
