@@ -27,25 +27,17 @@ constexpr double least_error_ratio = 1.02;
 constexpr double least_gain_of_a_table = 0.98;  // closed loop, runs of the fit: else the table stays out of the model
 constexpr double smallest_remainder_N = 1.0;
 
-/// What an encoder shows wrongly is in its counts; the simulated loop is closed over the true angle.
-bool shown_by_counts_alone(std::string_view id) {
-  return id == "encoder_eccentricity" || id == "count_loss";
-}
-
 /// Drops what the second engine does not bear out. Numbers of the model are told by how far the others would have to move.
 void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                     const std::function<void(std::string_view)>& progress) {
   for (std::size_t e = fit.model.effects.size(); e-- > 0;) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
-    if (!worth_naming(fit.model.effects[e]) || shown_by_counts_alone(hypothesis->id)) continue;
-    if (hypothesis->number_of_the_model) continue;
-    const auto seen = confirm(forward, fitter, found.whitening, fit.model, e);
+    if (!worth_naming(fit.model.effects[e]) || hypothesis->number_of_the_model) continue;
+    auto seen = confirm(forward, fitter, found.whitening, fit.model, e);
     progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
                          seen.channel.empty() ? "no channel" : seen.channel, seen.error_ratio));
     if (seen.error_ratio > least_error_ratio) continue;
-    Candidate less = fit.model;
-    less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(e));
-    fit = fitter.fit(less, found.whitening, 6);
+    fit = std::move(seen.without);
     std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
   }
 }

@@ -8,6 +8,16 @@
 
 namespace feedtwin::tools::diagnosis {
 
+Candidate without(const Candidate& model, std::size_t effect) {
+  Candidate less = model;
+  less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  return less;
+}
+
+bool has(const Candidate& model, const Hypothesis& hypothesis) {
+  return std::ranges::any_of(model.effects, [&hypothesis](const Active& a) { return a.hypothesis == &hypothesis; });
+}
+
 Fitter::Fitter(const InverseModel& model, const plant::AxisParameters& nominal)
     : model_(model), nominal_(nominal), base_(base_parameters(model.power_recorded())), structure_(model) {}
 

@@ -16,6 +16,9 @@ struct Candidate {
   std::vector<Active> effects;
 };
 
+[[nodiscard]] Candidate without(const Candidate& model, std::size_t effect);
+[[nodiscard]] bool has(const Candidate& model, const Hypothesis& hypothesis);
+
 struct Fit {
   Candidate model;
   Vector residual;             ///< in the equations' units

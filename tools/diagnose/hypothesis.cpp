@@ -1,5 +1,6 @@
 #include "tools/diagnose/hypothesis.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "tools/diagnose/hypotheses/registry.h"
@@ -15,6 +16,19 @@ const Hypothesis& hypothesis(std::string_view id) {
   for (const auto& one : hypotheses())
     if (one.id == id) return one;
   throw std::logic_error("no hypothesis " + std::string(id));
+}
+
+bool possible(const Active& active, const plant::AxisParameters& axis) {
+  return active.hypothesis->admissible == nullptr || active.hypothesis->admissible(active.q, axis);
+}
+
+bool worth_naming(const Active& active) {
+  return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
+}
+
+std::size_t freedom(const Hypothesis& hypothesis) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(hypothesis.parameters, [](const auto& p) { return p.kind != Kind::fixed; }));
 }
 
 void add(Vector& sum, const Vector& more) {

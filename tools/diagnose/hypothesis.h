@@ -86,6 +86,19 @@ struct Hypothesis {
   bool friction = false;  ///< sets the factors, so that friction must be followed again
 };
 
+/// A hypothesis that is part of the model, with its working parameters.
+struct Active {
+  const Hypothesis* hypothesis = nullptr;
+  std::vector<double> q;
+};
+
+/// Is the fitted value physically possible?
+[[nodiscard]] bool possible(const Active& active, const plant::AxisParameters& axis);
+/// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
+[[nodiscard]] bool worth_naming(const Active& active);
+/// Working parameters that are fitted.
+[[nodiscard]] std::size_t freedom(const Hypothesis& hypothesis);
+
 [[nodiscard]] const std::vector<Hypothesis>& hypotheses();
 [[nodiscard]] const Hypothesis& hypothesis(std::string_view id);
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "plant/axis_model.h"
+#include "tools/identify/whitening.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -127,14 +128,7 @@ void InverseModel::find_settled() {
 
 void InverseModel::weigh_noise() {
   const auto model = plant::make_axis_model(nominal_);
-  const auto white_sigma = [](const Vector& x) {  // from third differences, robust
-    std::vector<double> d;
-    for (Index k = 3; k < x.size(); ++k) d.push_back(std::abs(x[k] - 3.0 * x[k - 1] + 3.0 * x[k - 2] - x[k - 3]));
-    if (d.empty()) return 0.0;
-    const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
-    std::nth_element(d.begin(), middle, d.end());
-    return 1.4826 * *middle / std::sqrt(20.0);
-  };
+  const auto sigma = [](const Vector& x) { return white_sigma({x.data(), static_cast<std::size_t>(x.size())}); };
   const auto& kernel = low_pass();
   double flat = 0.0, twice = 0.0;  // what the low pass leaves of white noise, and of its second difference
   for (std::size_t i = 0; i < taps + 2; ++i) {
@@ -146,9 +140,9 @@ void InverseModel::weigh_noise() {
   const Track& track = tracks_.front();
   const double grid_m = nominal_.axis.lead_m / nominal_.axis.encoder_counts_per_rev;
   noise_.acceleration = twice * grid_m * grid_m / 12.0 / std::pow(track.sample_s, 4);
-  noise_.torque_sensor = flat * std::pow(white_sigma(track.torque_sensor_N), 2);
-  noise_.force_sensor = flat * std::pow(white_sigma(track.force_sensor_N), 2);
-  noise_.slip = flat * std::pow(white_sigma(track.slip_m), 2);
+  noise_.torque_sensor = flat * std::pow(sigma(track.torque_sensor_N), 2);
+  noise_.force_sensor = flat * std::pow(sigma(track.force_sensor_N), 2);
+  noise_.slip = flat * std::pow(sigma(track.slip_m), 2);
   const double acceleration = noise_.acceleration, torque = noise_.torque_sensor, force = noise_.force_sensor;
   for (const auto& equation : equations_) {
     const double mass =

@@ -17,12 +17,6 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// A hypothesis that is part of the model, with its working parameters.
-struct Active {
-  const Hypothesis* hypothesis = nullptr;
-  std::vector<double> q;
-};
-
 struct Equation {
   std::string name;  ///< "motor", "screw+guide", "motor+screw+guide", "slip", "power"
   bool motor = false, screw = false, guide = false, slip = false, power = false;

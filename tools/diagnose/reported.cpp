@@ -73,10 +73,6 @@ std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const 
 
 }  // namespace
 
-bool worth_naming(const Active& active) {
-  return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
-}
-
 std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
   std::vector<Recalibrated> out;
   for (std::size_t i = 0; i < fitter.base().size(); ++i) {

@@ -5,9 +5,6 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
-[[nodiscard]] bool worth_naming(const Active& active);
-
 /// @param covariance of the base parameters, in tolerances, and then of the effects' working parameters
 [[nodiscard]] NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance,
                                        const InverseModel& model);

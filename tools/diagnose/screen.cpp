@@ -126,8 +126,7 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
   for (const auto* hypothesis : asked) grids.push_back(grid_of(*hypothesis, model, left));
   for (std::size_t h = 0; h < asked.size(); ++h) {
     const auto& shapes = grids[h];
-    const bool present = std::ranges::any_of(fit.model.effects, [&](const Active& a) { return a.hypothesis == asked[h]; });
-    if (present) continue;
+    if (has(fit.model, *asked[h])) continue;
     const std::size_t every = 1 + shapes.size() / most_by_chance;
     for (std::size_t i = 0; i < shapes.size(); ++i)
       tasks.push_back({asked[h], &shapes[i], against_chance && i % every == 0});
@@ -185,16 +184,16 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
       gains.row(static_cast<Index>(t)) = drawn.cwiseProduct(solver.solve(drawn)).colwise().sum();
     }
     // the wrong sign, or beyond what can be: what the nearest possible value brings
-    Vector possible = amplitude;
+    Vector reachable = amplitude;
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {
-      double& value = possible[static_cast<Index>(a)];
+      double& value = reachable[static_cast<Index>(a)];
       const auto& p = hypothesis.parameters[amplitudes[a]];
       value = std::clamp(value, p.lowest, p.highest);
       found[t].q[amplitudes[a]] = value;
     }
-    const Vector off = possible - amplitude;
+    const Vector off = reachable - amplitude;
     found[t].gain = std::max(0.0, found[t].gain - off.dot(gram * off));
-    if (hypothesis.admissible != nullptr && !hypothesis.admissible(found[t].q, fit.model.axis)) found[t].gain = 0.0;
+    if (!possible({&hypothesis, found[t].q}, fit.model.axis)) found[t].gain = 0.0;
   });
 
   Screen result;

@@ -20,15 +20,6 @@ double prior_part(const Fit& fit) {
   return fit.white.tail(fit.base_count()).squaredNorm();
 }
 
-bool possible(const Active& active, const plant::AxisParameters& axis) {
-  return active.hypothesis->admissible == nullptr || active.hypothesis->admissible(active.q, axis);
-}
-
-std::size_t freedom(const Hypothesis& hypothesis) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(hypothesis.parameters, [](const auto& p) { return p.kind != Kind::fixed; }));
-}
-
 /// Is what an effect does, against a fit that does without it, enough to name it?
 struct Verdict {
   double gain = 0.0, surprise = 0.0, strength = 0.0;
@@ -61,12 +52,6 @@ std::string best_of(const Screen& screened) {
                         std::max(1e-9, screened.p_false_alarm(score.standard)));
   }
   return text;
-}
-
-Candidate without(const Candidate& model, std::size_t effect) {
-  Candidate less = model;
-  less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(effect));
-  return less;
 }
 
 class Search {
@@ -187,14 +172,13 @@ class Search {
     std::size_t tried = 0;
     for (const auto& score : earlier_[i]) {
       const auto* rival = score.hypothesis;
-      const bool there = std::ranges::any_of(fit_.model.effects, [rival](const Active& a) { return a.hypothesis == rival; });
-      if (there || score.gain < 0.7 * own || ++tried > rivals_tried) continue;
+      if (has(fit_.model, *rival) || score.gain < 0.7 * own || ++tried > rivals_tried) continue;
       Candidate start = less.model;
       start.effects.push_back(at_zero(score));
       const Fit fit = fitter_.fit(start, whitening_, iterations);
       const Active& other = fit.model.effects.back();
-      const bool nuisance = rival->finding != nullptr && !rival->finding(other.q);
-      if (nuisance || !possible(other, fit.model.axis) || !judged(fitter_, fit, less, *rival, bar_).enough) continue;
+      if (!worth_naming(other) || !possible(other, fit.model.axis) || !judged(fitter_, fit, less, *rival, bar_).enough)
+        continue;
       const double more = bar_.per_parameter *
                           (static_cast<double>(freedom(*rival)) - static_cast<double>(freedom(*found.effect.hypothesis)));
       const double worse = fit.cost + more - fit_.cost;

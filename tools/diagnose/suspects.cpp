@@ -16,8 +16,7 @@ constexpr double share_of_strength = 0.7;  // of what it takes to be named
 
 bool can_be_suspected(const Score& score, const Screen& left, const Bar& bar) {
   const Hypothesis& h = *score.hypothesis;
-  const bool nuisance = h.finding != nullptr && !h.finding(score.q);
-  return !h.absorbed && !h.number_of_the_model && !nuisance && score.gain > bar.gain &&
+  return !h.absorbed && !h.number_of_the_model && worth_naming({&h, score.q}) && score.gain > bar.gain &&
          left.p_false_alarm(score.standard) < bar.p_false_alarm;
 }
 
@@ -43,9 +42,7 @@ std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, c
     const Fit with = fitter.fit(start, found.whitening, iterations);
     const Active& active = with.model.effects.back();
     const auto& h = *score.hypothesis;
-    if ((h.admissible != nullptr && !h.admissible(active.q, with.model.axis)) ||
-        (h.finding != nullptr && !h.finding(active.q)))
-      continue;
+    if (!possible(active, with.model.axis) || !worth_naming(active)) continue;
     const double strong = strength(fitter.model(), with, fit, h, bar);
     const bool held = holds(fitter.model(), with, fit, bar);
     progress(fmt::format("suspected: {} (strength {:.2f}, p {:.1g}{})", h.id, strong,

@@ -58,4 +58,13 @@ Whitening fit_whitening(std::span<const std::vector<double>> stretches, std::siz
   return whitening;
 }
 
+double white_sigma(std::span<const double> x) {
+  std::vector<double> d;
+  for (std::size_t k = 3; k < x.size(); ++k) d.push_back(std::abs(x[k] - 3.0 * x[k - 1] + 3.0 * x[k - 2] - x[k - 3]));
+  if (d.empty()) return 0.0;
+  const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
+  std::nth_element(d.begin(), middle, d.end());
+  return 1.4826 * *middle / std::sqrt(20.0);
+}
+
 }  // namespace feedtwin::tools

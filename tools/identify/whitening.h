@@ -21,4 +21,7 @@ struct Whitening {
 [[nodiscard]] Whitening fit_whitening(std::span<const std::vector<double>> stretches, std::size_t highest_order,
                                       double smallest_sigma);
 
+/// Standard deviation of a channel's white part, from third differences, robust against everything that is smooth.
+[[nodiscard]] double white_sigma(std::span<const double> x);
+
 }  // namespace feedtwin::tools

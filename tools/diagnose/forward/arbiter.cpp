@@ -21,27 +21,14 @@ bool confused(const Hypothesis& one, const Hypothesis& other) {
          std::ranges::find(other.confused_with, one.id) != other.confused_with.end();
 }
 
-bool there(const Candidate& model, const Hypothesis* hypothesis) {
-  return std::ranges::any_of(model.effects, [hypothesis](const Active& a) { return a.hypothesis == hypothesis; });
-}
-
-std::size_t freedom(const Candidate& model) {
-  std::size_t count = 0;
-  for (const auto& effect : model.effects)
-    count += static_cast<std::size_t>(
-        std::ranges::count_if(effect.hypothesis->parameters, [](const auto& p) { return p.kind != Kind::fixed; }));
+double freedom(const Candidate& model) {
+  double count = 0.0;
+  for (const auto& effect : model.effects) count += static_cast<double>(freedom(*effect.hypothesis));
   return count;
 }
 
-bool worth_naming(const Active& active, const plant::AxisParameters& axis) {
-  const auto& h = *active.hypothesis;
-  return (h.finding == nullptr || h.finding(active.q)) && (h.admissible == nullptr || h.admissible(active.q, axis));
-}
-
-Candidate without(const Candidate& model, std::size_t effect) {
-  Candidate less = model;
-  less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(effect));
-  return less;
+bool can_be_named(const Active& active, const plant::AxisParameters& axis) {
+  return worth_naming(active) && possible(active, axis);
 }
 
 }  // namespace
@@ -57,7 +44,7 @@ Arbiter::Ruling Arbiter::rule(const Fit& fit) const {
   if (const auto start = likelihood(forward_, extended(fit.model)); start.total() > ruling.likelihood.total())
     ruling.model = fit.model, ruling.likelihood = start;
   ruling.value = ruling.likelihood.total() - 0.5 * fitter_.deviations(ruling.model.axis).squaredNorm() -
-                 nats_per_parameter * static_cast<double>(freedom(ruling.model));
+                 nats_per_parameter * freedom(ruling.model);
   return ruling;
 }
 
@@ -65,11 +52,11 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   const auto* named = fit.model.effects[e].hypothesis;
   const auto entry = std::ranges::find(found.found, named, [](const Found& one) { return one.effect.hypothesis; });
   // a nuisance only says how the channels read: no name may come of it
-  if (entry == found.found.end() || !worth_naming(fit.model.effects[e], fit.model.axis)) return false;
+  if (entry == found.found.end() || !can_be_named(fit.model.effects[e], fit.model.axis)) return false;
   std::vector<const Hypothesis*> asked = entry->rivals;
   for (const auto& other : hypotheses())
     if (confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);
-  std::erase_if(asked, [&](const Hypothesis* other) { return there(fit.model, other); });
+  std::erase_if(asked, [&](const Hypothesis* other) { return has(fit.model, *other); });
   const Fit less = fitter_.fit(without(fit.model, e), found.whitening, iterations);
   for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {
     std::erase(entry->rivals, score.hypothesis);
@@ -78,10 +65,10 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     start.effects.push_back(at_zero(score));
     std::rotate(start.effects.begin() + static_cast<std::ptrdiff_t>(e), start.effects.end() - 1, start.effects.end());
     const Fit other = fitter_.fit(start, found.whitening, iterations);
-    if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !worth_naming(other.model.effects[e], other.model.axis))
+    if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
     const Ruling rival = rule(other);
-    if (!worth_naming(rival.model.effects[e], rival.model.axis)) continue;
+    if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
     const auto difference = compared(rival.likelihood, now.likelihood);
     progress_(fmt::format("closed loop, {} in place of {}: {:+.0f} nats, {:+.1f} deviations", score.hypothesis->id,
                           named->id, rival.value - now.value, difference.deviations));

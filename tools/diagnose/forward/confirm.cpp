@@ -6,14 +6,13 @@ namespace feedtwin::tools::diagnosis {
 
 Confirmation confirm(const ForwardModel& forward, const Fitter& fitter, const Whitening& whitening, const Candidate& model,
                      std::size_t effect) {
-  constexpr int iterations = 4;
-  Candidate less = model;
-  less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(effect));
-  less = fitter.fit(less, whitening, iterations).model;  // its numbers may take up what they can
-  const auto with = forward.nrmse(extended(model)), without = forward.nrmse(extended(less));
+  constexpr int iterations = 6;
   Confirmation found;
+  found.without = fitter.fit(without(model, effect), whitening, iterations);  // its numbers may take up what they can
+  const auto with = forward.nrmse(extended(model)), less = forward.nrmse(extended(found.without.model));
   for (const auto& [channel, error] : with)
-    if (error > 0.0 && without.at(channel) > found.error_ratio * error) found = {channel, without.at(channel) / error};
+    if (error > 0.0 && less.at(channel) > found.error_ratio * error)
+      found.channel = channel, found.error_ratio = less.at(channel) / error;
   return found;
 }
 

@@ -9,6 +9,7 @@ namespace feedtwin::tools::diagnosis {
 struct Confirmation {
   std::string channel;       ///< that the effect helps most
   double error_ratio = 1.0;  ///< error without it over error with it, in that channel
+  Fit without;               ///< the best model without it, by the inverse model
 };
 
 /// @param forward runs to judge by

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tools/identify/channel_residuals.h"
+#include "tools/identify/whitening.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -41,16 +42,6 @@ Nrmse as_nrmse(const SquaresByChannel& sums) {
   for (const auto& [name, sum] : sums)
     if (sum.signal > 0.0) found[name] = std::sqrt(sum.residual / sum.signal);
   return found;
-}
-
-/// Standard deviation of a channel's white part, from third differences, robust against everything that is smooth.
-double white_sigma(std::span<const double> x) {
-  std::vector<double> d;
-  for (std::size_t k = 3; k < x.size(); ++k) d.push_back(std::abs(x[k] - 3.0 * x[k - 1] + 3.0 * x[k - 2] - x[k - 3]));
-  if (d.empty()) return 0.0;
-  const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
-  std::nth_element(d.begin(), middle, d.end());
-  return 1.4826 * *middle / std::sqrt(20.0);
 }
 
 /// What the simulated axis would have recorded: its position on the encoder's grid, its sensors with their noise.
