@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/lines.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -154,7 +155,8 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
 }
 
 Whitening Fitter::colour_of(const Vector& residual) const {
-  return Whitening::estimate(model_, residual - structure_.part_of(residual));
+  const Vector rest = residual - structure_.part_of(residual);
+  return Whitening::estimate(model_, rest - sharp_lines(model_, rest));
 }
 
 Fit Fitter::fit_with_colour(const Candidate& start, Whitening& whitening, int rounds, int iterations) const {

@@ -128,7 +128,11 @@ class Search {
       if (value > most) most = value, p_best = p, best = std::move(fit);
     }
     if (!best) return false;
-    progress_("adding " + std::string(best->model.effects.back().hypothesis->id));
+    const Active& added = best->model.effects.back();
+    std::string values;
+    for (const auto& [name, value] : added.hypothesis->named(added.q, best->model.axis))
+      values += fmt::format("{}{} {:.4g}", values.empty() ? "" : ", ", name, value);
+    progress_(fmt::format("adding {} ({})", added.hypothesis->id, values));
     chances_.push_back(p_best);
     earlier_.push_back(last_.scores);
     fit_ = fitter_.fit_with_colour(best->model, whitening_, 2, iterations);

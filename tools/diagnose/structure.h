@@ -23,8 +23,8 @@ class RepeatableStructure {
 
   /// Of the sum of all force equations.
   [[nodiscard]] Structure remaining(const Vector& residual) const;
-  /// What the additive model predicts of each force equation's residual on seconds that it has not seen; zero where it has
-  /// nothing to say. What is left without it is nearer to noise.
+  /// What the additive model, or those of its parts that do best, predict of each force equation's residual on seconds
+  /// that they have not seen; zero where they have nothing to say. What is left without it is nearer to noise.
   [[nodiscard]] Vector part_of(const Vector& residual) const;
 
  private:
@@ -35,7 +35,12 @@ class RepeatableStructure {
   std::vector<std::vector<Index>> places_;             ///< settled rows of every run
   Eigen::MatrixXd rows_;                               ///< a column a settled row, runs in turn
   std::vector<std::vector<Index>> members_;            ///< of each fold
-  std::vector<Eigen::LDLT<Eigen::MatrixXd>> solvers_;  ///< from the other folds
+  /// Some parts of the additive model.
+  struct Way {
+    std::vector<Index> columns;
+    std::vector<Eigen::LDLT<Eigen::MatrixXd>> solvers;  ///< from the other folds
+  };
+  std::vector<Way> ways_;
 };
 
 }  // namespace feedtwin::tools::diagnosis
