@@ -60,7 +60,7 @@ Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
   for (auto& effect : to.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j) {
       const auto& p = effect.hypothesis->parameters[j];
-      if (p.kind == Kind::fixed) continue;
+      if (!fitted(p.kind)) continue;
       double change = step[at++];
       if (p.kind == Kind::shape) {
         const double most = std::max(20.0 * p.step, 0.25 * std::abs(effect.q[j]));
@@ -88,7 +88,7 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
   for (std::size_t i = 0; i < base_.size(); ++i) unknowns.push_back({0, i, true});
   for (std::size_t e = 0; e < at.effects.size(); ++e)
     for (std::size_t j = 0; j < at.effects[e].q.size(); ++j)
-      if (at.effects[e].hypothesis->parameters[j].kind != Kind::fixed) unknowns.push_back({e, j, false});
+      if (fitted(at.effects[e].hypothesis->parameters[j].kind)) unknowns.push_back({e, j, false});
 
   fit.jacobian.resize(fit.white.size(), static_cast<Index>(unknowns.size()));
   parallel_for(unknowns.size(), [&](std::size_t u) {

@@ -28,7 +28,7 @@ bool worth_naming(const Active& active) {
 
 std::size_t freedom(const Hypothesis& hypothesis) {
   return static_cast<std::size_t>(
-      std::ranges::count_if(hypothesis.parameters, [](const auto& p) { return p.kind != Kind::fixed; }));
+      std::ranges::count_if(hypothesis.parameters, [](const auto& p) { return fitted(p.kind); }));
 }
 
 void add(Vector& sum, const Vector& more) {

@@ -43,7 +43,8 @@ struct Contribution {
 enum class Kind {
   amplitude,  ///< the effect vanishes with all its amplitudes
   shape,      ///< lag, scale: searched on a grid, then refined
-  fixed       ///< searched on a grid and left there: a whole number
+  fixed,      ///< searched on a grid and left there: a whole number
+  simulated   ///< only the closed loop tells it, from its grid value and by its logarithm's prior of 1; not reported
 };
 
 struct WorkingParameter {
@@ -96,6 +97,10 @@ struct Active {
 [[nodiscard]] bool possible(const Active& active, const plant::AxisParameters& axis);
 /// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
 [[nodiscard]] bool worth_naming(const Active& active);
+/// Is it an unknown of the inverse model, and of the intervals?
+[[nodiscard]] constexpr bool fitted(Kind kind) {
+  return kind == Kind::amplitude || kind == Kind::shape;
+}
 /// Working parameters that are fitted.
 [[nodiscard]] std::size_t freedom(const Hypothesis& hypothesis);
 

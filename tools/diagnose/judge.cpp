@@ -28,7 +28,7 @@ void freeze_shapes(const Fit& fit, Eigen::MatrixXd& jacobian) {
   for (const auto& effect : fit.model.effects)
     for (const auto& p : effect.hypothesis->parameters) {
       if (p.kind == Kind::shape) jacobian.col(column).setZero();
-      if (p.kind != Kind::fixed) ++column;
+      if (fitted(p.kind)) ++column;
     }
 }
 

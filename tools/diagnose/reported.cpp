@@ -18,9 +18,20 @@ std::vector<Index> places_of(const Fit& fit, std::size_t effect) {
     const auto& active = fit.model.effects[e];
     places.assign(active.q.size(), -1);
     for (std::size_t j = 0; j < active.q.size(); ++j)
-      if (active.hypothesis->parameters[j].kind != Kind::fixed) places[j] = at++;
+      if (fitted(active.hypothesis->parameters[j].kind)) places[j] = at++;
   }
   return places;
+}
+
+/// Does this value rest on what is no finding of its own?
+bool hidden(const Active& active, const plant::AxisParameters& axis, std::size_t value) {
+  for (std::size_t j = 0; j < active.q.size(); ++j) {
+    if (active.hypothesis->parameters[j].kind != Kind::simulated) continue;
+    auto near = active.q;
+    near[j] += active.hypothesis->parameters[j].step;
+    if (active.hypothesis->named(near, axis)[value].value != active.hypothesis->named(active.q, axis)[value].value) return true;
+  }
+  return false;
 }
 
 /// Intervals of what is reported, from the covariance of what was fitted.
@@ -32,6 +43,7 @@ std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Ei
   const auto now = active.hypothesis->named(active.q, axis);
   std::vector<std::pair<std::string, Estimate>> out;
   for (std::size_t i = 0; i < now.size(); ++i) {
+    if (hidden(active, axis, i)) continue;
     Vector slope = Vector::Zero(covariance.rows());
     for (std::size_t j = 0; j < active.q.size(); ++j) {
       if (places[j] < 0) continue;

@@ -54,6 +54,14 @@ std::string best_of(const Screen& screened) {
   return text;
 }
 
+/// "cogging (amplitude_Nm 0.012, cycles_per_rev 12)"
+std::string in_words(const Active& active, const plant::AxisParameters& axis) {
+  std::string values;
+  for (const auto& [name, value] : active.hypothesis->named(active.q, axis))
+    values += fmt::format("{}{} {:.4g}", values.empty() ? "" : ", ", name, value);
+  return fmt::format("{} ({})", active.hypothesis->id, values);
+}
+
 class Search {
  public:
   Search(const Fitter& fitter, const Bar& bar, const std::function<void(std::string_view)>& progress)
@@ -121,18 +129,15 @@ class Search {
       Fit fit = fitter_.fit(start, whitening_, iterations);
       if (!possible(fit.model.effects.back(), fit.model.axis)) continue;
       const auto verdict = judged(fitter_, fit, fit_, *score.hypothesis, bar_);
-      progress_(fmt::format("  {}: gain {:.0f}, surprise {:.0f}, strength {:.2f}", score.hypothesis->id, verdict.gain,
-                            verdict.surprise, verdict.strength));
+      progress_(fmt::format("  {}: gain {:.0f}, surprise {:.0f}, strength {:.2f}",
+                            in_words(fit.model.effects.back(), fit.model.axis), verdict.gain, verdict.surprise,
+                            verdict.strength));
       if (!verdict.enough) continue;
       const double value = verdict.gain - bar_.per_parameter * static_cast<double>(freedom(*score.hypothesis));
       if (value > most) most = value, p_best = p, best = std::move(fit);
     }
     if (!best) return false;
-    const Active& added = best->model.effects.back();
-    std::string values;
-    for (const auto& [name, value] : added.hypothesis->named(added.q, best->model.axis))
-      values += fmt::format("{}{} {:.4g}", values.empty() ? "" : ", ", name, value);
-    progress_(fmt::format("adding {} ({})", added.hypothesis->id, values));
+    progress_("adding " + in_words(best->model.effects.back(), best->model.axis));
     chances_.push_back(p_best);
     earlier_.push_back(last_.scores);
     fit_ = fitter_.fit_with_colour(best->model, whitening_, 2, iterations);

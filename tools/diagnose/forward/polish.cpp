@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tools/diagnose/forward/extended_axis.h"
 
@@ -30,12 +31,13 @@ std::vector<FitParameter> unknowns_of(const Fitter& fitter, const Candidate& sta
     for (std::size_t j = 0; j < effect.q.size(); ++j) {
       const auto& p = effect.hypothesis->parameters[j];
       if (p.kind == Kind::fixed) continue;
+      const bool by_factor = p.kind == Kind::simulated;  // a logarithm
       unknowns.push_back({.key = std::string(effect.hypothesis->id) + "." + std::string(p.name),
                           .nominal = effect.q[j],
                           .lowest = p.lowest,
                           .highest = p.highest,
-                          .scale = std::max(0.3 * std::abs(effect.q[j]), 10.0 * p.step),
-                          .prior = no_prior,
+                          .scale = by_factor ? 1.0 : std::max(0.3 * std::abs(effect.q[j]), 10.0 * p.step),
+                          .prior = by_factor ? 1.0 : no_prior,
                           .start = {}});
     }
   return unknowns;
@@ -58,10 +60,24 @@ void add_step_error(const Fitter& fitter, Polished& polished) {
   Index next = static_cast<Index>(fitter.base().size());
   for (const auto& effect : polished.model.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j)
-      if (effect.hypothesis->parameters[j].kind != Kind::fixed) {
+      if (fitted(effect.hypothesis->parameters[j].kind)) {
         polished.covariance(next, next) += std::pow(step_error * effect.q[j], 2);
         ++next;
       }
+}
+
+/// The unknowns that a Fit has too.
+std::vector<Index> shared_unknowns(const Fitter& fitter, const Candidate& model) {
+  std::vector<Index> shared(fitter.base().size());
+  std::iota(shared.begin(), shared.end(), Index{0});
+  Index next = static_cast<Index>(shared.size());
+  for (const auto& effect : model.effects)
+    for (const auto& p : effect.hypothesis->parameters) {
+      if (p.kind == Kind::fixed) continue;
+      if (fitted(p.kind)) shared.push_back(next);
+      ++next;
+    }
+  return shared;
 }
 
 }  // namespace
@@ -82,7 +98,9 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   output_error.coloured_from_start = settings.coloured_from_start;
   output_error.intervals = settings.intervals;
   const auto fit = fit_output_error(forward.runs(), unknowns, simulator, output_error);
-  Polished polished{at(fitter, start, fit.point()), fit.covariance, fit.cost};
+  Polished polished{at(fitter, start, fit.point()), {}, fit.cost};
+  const auto shared = shared_unknowns(fitter, start);
+  polished.covariance = fit.covariance.size() > 0 ? Eigen::MatrixXd(fit.covariance(shared, shared)) : fit.covariance;
   for (std::size_t i = 0; i < fitter.base().size(); ++i) {
     const auto place = static_cast<Index>(i);
     polished.covariance.row(place) /= fitter.tolerance(i);

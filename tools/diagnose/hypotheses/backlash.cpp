@@ -9,6 +9,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+constexpr double contact_N_per_m = 6e7, contact_Ns_per_m = 2e3;  ///< of the closed flanks, to begin with
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   constexpr double pressing_N = 0.5;  // the force sensor then tells which flank bears
@@ -25,7 +27,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"gap_m", q[0]}};
+  return {{"gap_m", q[0]}, {"stiffness_N_per_m", std::exp(q[1])}, {"damping_Ns_per_m", std::exp(q[2])}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -39,8 +41,10 @@ Hypothesis backlash() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::reversal,
-          .parameters = {{"gap_m", Kind::amplitude, 1e-7, 0.0, 1e-3}},
-          .shapes = {{}},
+          .parameters = {{"gap_m", Kind::amplitude, 1e-7, 0.0, 1e-3},
+                         {"log_stiffness", Kind::simulated, 1e-2, std::log(1e7), std::log(1e9)},
+                         {"log_damping", Kind::simulated, 1e-2, std::log(1e2), std::log(1e5)}},
+          .shapes = {{std::log(contact_N_per_m), std::log(contact_Ns_per_m)}},
           .apply = apply,
           .named = named,
           .admissible = possible,

@@ -151,7 +151,7 @@ double Separation::distance(const Move& move, const Candidate& truth, const Cont
     for (std::size_t e = 0; e < other.model.effects.size(); ++e)
       for (std::size_t j = 0; j < other.model.effects[e].q.size(); ++j) {
         const auto& p = other.model.effects[e].hypothesis->parameters[j];
-        if (p.kind == Kind::fixed) continue;
+        if (!fitted(p.kind)) continue;
         models.push_back(other.model);
         auto& q = models.back().effects[e].q[j];
         q = std::clamp(q + deviation(next++), p.lowest, p.highest);
