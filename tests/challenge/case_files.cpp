@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,8 @@ std::string run_text(const Run& run, unsigned channels) {
   if (channels & power) text += ",power_W";
   text += '\n';
   for (const Sample& s : run) {
+    if (!std::isfinite(s.torque_cmd_Nm + s.position_m + s.force_sensor_N + s.power_W))
+      throw std::runtime_error(fmt::format("not finite at {:.3f} s: the truth's integrator failed", s.time_s));
     text += fmt::format("{:.3f},{:.6f},{:.9f}", s.time_s, s.torque_cmd_Nm, s.position_m);
     if (channels & scale) text += fmt::format(",{:.9f}", s.scale_position_m);
     if (channels & torque_sensor) text += fmt::format(",{:.5f}", s.torque_sensor_Nm);

@@ -81,6 +81,39 @@ Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResul
   return told;
 }
 
+/// Takes out what the closed loop, asked for its size, finds to be none: amplitudes that are zero within their intervals.
+void drop_sizeless(SearchResult& found, Fit& fit, Eigen::MatrixXd& covariance,
+                   const std::function<void(std::string_view)>& progress) {
+  constexpr double least_deviations = 3.0;
+  Index from = fit.base_count();
+  for (std::size_t e = 0; e < fit.model.effects.size();) {
+    const Active& effect = fit.model.effects[e];
+    const auto* hypothesis = effect.hypothesis;
+    std::vector<Index> own, amplitudes;
+    std::vector<double> size;
+    for (std::size_t j = 0; j < effect.q.size(); ++j) {
+      const Kind kind = hypothesis->parameters[j].kind;
+      if (kind == Kind::amplitude) amplitudes.push_back(from + static_cast<Index>(own.size())), size.push_back(effect.q[j]);
+      if (fitted(kind)) own.push_back(from + static_cast<Index>(own.size()));
+    }
+    const auto count = static_cast<Index>(own.size());
+    const Eigen::Map<const Vector> value(size.data(), static_cast<Index>(size.size()));
+    const Eigen::MatrixXd spread = covariance(amplitudes, amplitudes);
+    const double square = value.dot(spread.ldlt().solve(value));
+    if (size.empty() || square > least_deviations * least_deviations * static_cast<double>(size.size())) {
+      from += count, ++e;
+      continue;
+    }
+    progress(fmt::format("closed loop: {} is {:.1f} deviations from nothing", hypothesis->id, std::sqrt(square)));
+    std::vector<Index> rest;
+    for (Index i = 0; i < covariance.rows(); ++i)
+      if (i < from || i >= from + count) rest.push_back(i);
+    covariance = Eigen::MatrixXd(covariance(rest, rest));
+    std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
+    fit.model = without(fit.model, e);
+  }
+}
+
 void plan_next(Diagnosis& result, const Evidence& seen, const std::function<void(std::string_view)>& progress) {
   const auto open = std::ranges::find_if(result.effects, [](const NamedEffect& e) { return !e.alternatives.empty(); });
   if (open != result.effects.end()) {
@@ -126,6 +159,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
     if (closest(forward, {extended(polished.model, worth_naming), extended(fit.model, worth_naming)}) == 0) {
       fit.model = polished.model;
       covariance = polished.covariance;
+      drop_sizeless(found, fit, covariance, progress);
     }
   }
 

@@ -9,7 +9,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double no_prior = 1e9;
+/// In units of an effect's scale: wide, but where only a combination of its numbers tells, the others stay in sight of it.
+constexpr double hardly_a_prior = 100.0;
 
 /// The base parameters, then the effects' own that are not fixed.
 std::vector<FitParameter> unknowns_of(const Fitter& fitter, const Candidate& start) {
@@ -37,7 +38,7 @@ std::vector<FitParameter> unknowns_of(const Fitter& fitter, const Candidate& sta
                           .lowest = p.lowest,
                           .highest = p.highest,
                           .scale = by_factor ? 1.0 : std::max(0.3 * std::abs(effect.q[j]), 10.0 * p.step),
-                          .prior = by_factor ? 1.0 : no_prior,
+                          .prior = by_factor ? 1.0 : hardly_a_prior,
                           .start = {}});
     }
   return unknowns;
