@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "tools/identify/power_meter.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
@@ -86,9 +88,8 @@ void follow_reversals(Track& track) {
   }
 }
 
-/// A meter that holds its reading shows, from the end of a window on, the mean over that window; a row's reading is of the
-/// end of the sample that follows it.
-MeterWindows meter_windows(const Vector& power_W, double sample_s) {
+/// A meter that holds its reading shows, from the end of a window on, the mean over that window.
+MeterWindows meter_windows(const Vector& power_W, double sample_s, Index delay) {
   std::vector<Index> changes;
   for (Index k = 1; k < power_W.size(); ++k)
     if (power_W[k] != power_W[k - 1]) changes.push_back(k);
@@ -107,9 +108,10 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s) {
     return meter;
   }
   meter.held = true;
+  meter.late = delay > 0;
   const Index phase = changes.empty() ? 0 : changes.front() % meter.length;
   for (Index k = phase; k + meter.length < power_W.size(); k += meter.length) {
-    meter.starts.push_back(k + 1);
+    meter.starts.push_back(k + 1 - delay);
     meter.power_W.push_back(power_W[k + meter.length]);
   }
   return meter;
@@ -161,7 +163,9 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   if (recording.has(channel::force_sensor_N))
     track.force_sensor_N = convolved(as_vector(recording.at(channel::force_sensor_N)), triangle);
   track.half_step_N = convolved(track.held_N, triangle) - track.command_N;
-  if (recording.has(channel::power_W)) track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h);
+  if (recording.has(channel::power_W))
+    track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h,
+                                static_cast<Index>(metered_rows(recording, axis).delay));
   return track;
 }
 

@@ -27,6 +27,7 @@ inline constexpr double standstill_m_per_s = 2e-4;
 struct MeterWindows {
   Index length = 0;   ///< samples a window
   bool held = false;  ///< the meter's own; otherwise means that we took
+  bool late = false;  ///< it shows what came before the row: means over samples rather than of instants
   std::vector<Index> starts;
   std::vector<double> power_W;
 };
@@ -53,6 +54,9 @@ struct Track {
   Vector force_sensor_N;
   Vector slip_m;  ///< linear scale less motor encoder
   MeterWindows meter;
+
+  /// Velocity that the power meter saw under the command of a sample.
+  [[nodiscard]] const Vector& metered_m_per_s() const { return meter.late ? velocity_m_per_s : centred_m_per_s; }
 };
 
 [[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);

@@ -12,6 +12,7 @@
 #include "controllers/reference.h"
 #include "plant/feed_axis.h"
 #include "tools/identify/lanes/dispatch.h"
+#include "tools/identify/power_meter.h"
 #include "tools/recording/case.h"
 
 namespace feedtwin::tools {
@@ -58,19 +59,5 @@ struct CandidateAxis {
 [[nodiscard]] std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run,
                                                           std::span<const CandidateAxis> candidates,
                                                           const lanes::Wanted& wanted, unsigned threads = 0);
-
-/// The rows at which a metered power (held for many rows) is new, and the number of ticks that it is the mean of; window 1
-/// and every row where the power is not held.
-struct MeteredPower {
-  std::vector<std::size_t> rows;
-  std::size_t window = 1;
-};
-/// @param expected_window ticks, for a meter that shows too few different readings to tell its own; 0: unknown
-[[nodiscard]] MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_window = 0);
-/// With the window that the axis file states.
-[[nodiscard]] MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis);
-
-/// A simulated power as the recording's meter would show it, row by row.
-[[nodiscard]] std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter);
 
 }  // namespace feedtwin::tools

@@ -17,9 +17,9 @@ struct Squares {
 };
 using SquaresByChannel = std::map<std::string, Squares>;
 
-void add_squares(const Recording& recording, const Simulated& simulated, SquaresByChannel& sums) {
-  const auto power = recording.at(channel::power_W);
-  const auto meter = power.empty() ? MeteredPower{} : metered_rows(power);
+void add_squares(const ClosedLoopRun& run, const Simulated& simulated, SquaresByChannel& sums) {
+  const Recording& recording = run.recording();
+  const auto meter = metered_rows(recording, run.nominal());
   const auto residuals = channel_residuals(recording, meter, simulated);
   for (std::size_t c = 0; c < fitted_channels.size(); ++c) {
     if (residuals[c].empty()) continue;
@@ -45,7 +45,8 @@ Nrmse as_nrmse(const SquaresByChannel& sums) {
 }
 
 /// What the simulated axis would have recorded: its position on the encoder's grid, its sensors with their noise.
-Recording as_recorded(const Recording& original, const Simulated& simulated, double count_m, double meter_share) {
+Recording as_recorded(const ClosedLoopRun& run, const Simulated& simulated, double count_m, double meter_share) {
+  const Recording& original = run.recording();
   Recording made = original;
   std::mt19937 random(20190410);  // NOLINT(bugprone-random-generator-seed): the same answer for the same input
   std::normal_distribution<double> normal;
@@ -55,7 +56,7 @@ Recording as_recorded(const Recording& original, const Simulated& simulated, dou
     auto& values = found->second;
     const auto model = simulated_channel(simulated, name);
     if (name == channel::power_W) {
-      const auto meter = metered_rows(original.at(name));
+      const auto meter = metered_rows(original, run.nominal());
       values = as_metered(model, meter);
       double error_W = 0.0;
       auto next = meter.rows.begin();
@@ -120,7 +121,7 @@ void ForwardModel::learn_meter_noise(const plant::AxisParameters& axis) {
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const auto recorded = runs_[r].recording().at(channel::power_W);
     if (recorded.empty()) return;
-    const auto meter = metered_rows(recorded);
+    const auto meter = metered_rows(runs_[r].recording(), runs_[r].nominal());
     const auto residual = channel_residuals(runs_[r].recording(), meter, simulated[r])[static_cast<std::size_t>(power)];
     for (std::size_t i = 1; i < residual.size(); ++i) {
       const double reading_W = std::hypot(recorded[meter.rows[i]], recorded[meter.rows[i - 1]]);
@@ -136,7 +137,7 @@ void ForwardModel::learn_meter_noise(const plant::AxisParameters& axis) {
 Nrmse ForwardModel::nrmse(const plant::AxisParameters& axis) const {
   const auto simulated = simulate(axis);
   SquaresByChannel sums;
-  for (std::size_t r = 0; r < runs_.size(); ++r) add_squares(runs_[r].recording(), simulated[r], sums);
+  for (std::size_t r = 0; r < runs_.size(); ++r) add_squares(runs_[r], simulated[r], sums);
   return as_nrmse(sums);
 }
 
@@ -145,7 +146,7 @@ Nrmse ForwardModel::noise_floor(const plant::AxisParameters& axis) const {
   const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
   std::vector<Recording> made;
   for (std::size_t r = 0; r < runs_.size(); ++r)
-    made.push_back(as_recorded(runs_[r].recording(), simulated[r], count_m, meter_.share));
+    made.push_back(as_recorded(runs_[r], simulated[r], count_m, meter_.share));
   ForwardModel again(made, *data_);
   again.take_meter_from(*this);
   return again.nrmse(axis);

@@ -43,7 +43,7 @@ Likelihood likelihood(const ForwardModel& forward, const plant::AxisParameters& 
   for (std::size_t r = 0; r < forward.runs().size(); ++r) {
     const auto& recording = forward.runs()[r].recording();
     const auto power = recording.at(channel::power_W);
-    const auto meter = power.empty() ? MeteredPower{} : metered_rows(power);
+    const auto meter = metered_rows(recording, forward.runs()[r].nominal());
     auto residuals = channel_residuals(recording, meter, simulated[r]);
     const std::size_t first = found.stretches.size();
     const auto length = static_cast<std::size_t>(std::max(1.0, std::round(stretch_s / recording.sample_s)));

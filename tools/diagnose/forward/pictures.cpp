@@ -53,8 +53,7 @@ Remainder remainder_of(const ForwardModel& forward, const std::vector<Simulated>
   Remainder found;
   for (std::size_t r = 0; r < simulated.size(); ++r) {
     const auto& recording = forward.runs()[r].recording();
-    const auto power = recording.at(channel::power_W);
-    const auto meter = power.empty() ? MeteredPower{} : metered_rows(power);
+    const auto meter = metered_rows(recording, forward.runs()[r].nominal());
     const auto residual = channel_residuals(recording, meter, simulated[r])[channel_at];
     const bool metered = fitted_channels[channel_at] == channel::power_W;
     for (std::size_t i = 0; i < residual.size(); ++i) {

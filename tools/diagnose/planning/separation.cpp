@@ -103,8 +103,7 @@ Separation::Separation(const ForwardModel& forward, const Fitter& fitter, const 
   for (std::size_t r = 0; r < simulated.size(); ++r) {
     const Recording& recording = forward.runs()[r].recording();
     sample_s_ = recording.sample_s;
-    const auto power = recording.at(channel::power_W);
-    const auto residuals = channel_residuals(recording, power.empty() ? MeteredPower{} : metered_rows(power), simulated[r]);
+    const auto residuals = channel_residuals(recording, metered_rows(recording, forward.runs()[r].nominal()), simulated[r]);
     for (std::size_t c = 0; c < fitted_channels.size(); ++c) {
       if (residuals[c].empty()) continue;
       const bool metered = fitted_channels[c] == channel::power_W;

@@ -18,19 +18,19 @@ struct Window {
   double loss_W = 0.0;
 };
 
-Window window_before(const Recording& recording, std::size_t last_row, std::size_t ticks, double transmission) {
+Window window_before(const Recording& recording, std::size_t row, const MeteredPower& meter, double transmission) {
   const auto position_m = recording.at(channel::position_m), torque_Nm = recording.at(channel::torque_cmd_Nm);
-  const double window_s = static_cast<double>(ticks) * recording.sample_s;
+  const double window_s = static_cast<double>(meter.window) * recording.sample_s;
   Window window;
   double work_J = 0.0;
-  for (std::size_t i = last_row + 1 - ticks; i <= last_row; ++i) {
+  for (std::size_t i = meter.first_tick(row); i < meter.first_tick(row) + meter.window; ++i) {
     const double travel_m = position_m[i + 1] - position_m[i];
     const std::size_t direction = travel_m > 0.0 ? 0 : 1;
     work_J += transmission * torque_Nm[i] * travel_m;
     window.regressors[1 + direction] += std::abs(travel_m) / window_s;
     window.regressors[3 + direction] += travel_m * travel_m / recording.sample_s / window_s;
   }
-  window.loss_W = recording.at(channel::power_W)[last_row] - work_J / window_s;
+  window.loss_W = recording.at(channel::power_W)[row] - work_J / window_s;
   return window;
 }
 
@@ -44,7 +44,7 @@ std::optional<ElectricalLossFit> fit_electrical_loss(std::span<const Recording> 
     const auto meter = metered_rows(recording, axis);
     for (const std::size_t row : meter.rows) {
       if (row + 1 < recording.size())
-        windows.push_back(window_before(recording, row, meter.window, 2.0 * std::numbers::pi / axis.axis.lead_m));
+        windows.push_back(window_before(recording, row, meter, 2.0 * std::numbers::pi / axis.axis.lead_m));
     }
   }
   const auto rows = static_cast<Eigen::Index>(windows.size());

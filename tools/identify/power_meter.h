@@ -1,0 +1,32 @@
+#pragma once
+// How a recording's power meter reads: held for a window, the mean of that window, of this row's tick or of the one before.
+
+#include <span>
+#include <vector>
+
+#include "plant/parameters.h"
+#include "tools/recording/recording.h"
+
+namespace feedtwin::tools {
+
+/// The rows at which a metered power (held for many rows) is new, and the number of ticks that it is the mean of; window 1
+/// and every row where the power is not held.
+struct MeteredPower {
+  std::vector<std::size_t> rows;
+  std::size_t window = 1;
+  std::size_t delay = 0;  ///< ticks between the window's last and the row: 0 or 1
+
+  /// The first of the ticks that row shows the mean of; the last is `window` - 1 later.
+  [[nodiscard]] std::size_t first_tick(std::size_t row) const { return row + 1 - window - delay; }
+};
+
+/// @param expected_window ticks, for a meter that shows too few different readings to tell its own; 0: unknown
+[[nodiscard]] MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_window = 0);
+/// Of a recording, which may have no power: with the window that the axis file states, and the delay under which the
+/// recorded command and motion explain the readings (at least twice as well, or 0).
+[[nodiscard]] MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis);
+
+/// A simulated power as the recording's meter would show it, row by row.
+[[nodiscard]] std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter);
+
+}  // namespace feedtwin::tools
