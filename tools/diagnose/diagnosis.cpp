@@ -169,8 +169,11 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
     found.recalibrated.model = polished_if_closer(forward, fitter, found.recalibrated.model);
   }
 
-  for (const auto& one : found.found)
-    if (worth_naming(one.effect)) result.effects.push_back(named_effect(one, fit, covariance, model));
+  for (const auto& one : found.found) {
+    const auto now = std::ranges::find(fit.model.effects, one.effect.hypothesis, &Active::hypothesis);
+    if (now != fit.model.effects.end() && worth_naming(*now))
+      result.effects.push_back(named_effect(one, fit, covariance, model));
+  }
   result.recalibrated = recalibrated(fitter, fit, covariance);
   std::vector<plant::AxisParameters> ways{extended(fit.model, worth_naming), extended(fit.model)};
   if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model)), ways.push_back(data.axis);
