@@ -214,7 +214,7 @@ Baseline InverseModel::baseline(const plant::AxisParameters& axis, const Contact
     viscous[k] = (forward ? axis.ball_screw.viscous_Ns_per_m.pos : axis.ball_screw.viscous_Ns_per_m.neg) * v;
     const auto& linear = electrical.electrical_linear_Ws_per_m;
     const auto& quadratic = electrical.electrical_quadratic_Ws2_per_m2;
-    const double now = track.metered_m_per_s()[k];
+    const double now = track.metered_m_per_s[k];
     const bool on = now > 0.0;
     power[k] = electrical.electrical_idle_W + (on ? linear.pos : linear.neg) * std::abs(now) +
                (on ? quadratic.pos : quadratic.neg) * now * now + track.held_N[k] * now;
@@ -242,7 +242,7 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   if (equation.power) {
     Vector model = base.power_W;
     if (extra.power_W.size() > 0) model += extra.power_W;
-    if (extra.drive_N.size() > 0) model += extra.drive_N.cwiseProduct(track.metered_m_per_s());
+    if (extra.drive_N.size() > 0) model += extra.drive_N.cwiseProduct(track.metered_m_per_s);
     return model;
   }
   Vector r = recorded_side(equation, run);

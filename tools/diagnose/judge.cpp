@@ -61,15 +61,14 @@ LeftOut left_out(const InverseModel& model, const Fit& fit, const std::vector<st
 
 }  // namespace
 
-double strength(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
-                const Bar& bar) {
+double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals, const Bar& bar) {
   double strongest = 0.0;
   for (std::size_t e = 0; e < model.equations().size(); ++e) {
     const auto& equation = model.equations()[e];
     double moved = 0.0, left = 0.0, count = 0.0;
     for (const auto& s : model.segments())
       for (Index k = s.start; s.equation == e && k < s.start + s.size; ++k) {
-        if (!model.settled(k) && !hypothesis.about_reversals) continue;
+        if (!model.settled(k) && !about_reversals) continue;
         moved += std::pow(without.residual[k] - with.residual[k], 2);
         left += with.residual[k] * with.residual[k];
         count += 1.0;

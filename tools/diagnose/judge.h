@@ -7,8 +7,8 @@
 namespace feedtwin::tools::diagnosis {
 
 /// How much the fits differ, rms, over the rms of what the better one leaves over: the largest of the equations that the
-/// difference touches. Force equations count where the axis has settled, and about reversals for effects that live there.
-[[nodiscard]] double strength(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
+/// difference touches. Force equations count where the axis has settled, and about reversals too where these are asked for.
+[[nodiscard]] double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
                               const Bar& bar);
 
 /// Fall of the cost of each fold that the other folds' estimate of everything brings, with the effect against without.

@@ -30,7 +30,7 @@ Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const 
   Verdict v;
   v.gain = without.cost - with.cost;
   v.surprise = prior_part(without) - prior_part(with);
-  v.strength = strength(fitter.model(), with, without, hypothesis, bar);
+  v.strength = strength(fitter.model(), with, without, hypothesis.about_reversals, bar);
   const double needed = bar.gain + bar.per_parameter * static_cast<double>(freedom(hypothesis) - 1);
   const bool doubtful = hypothesis.absorbed && v.surprise < -bar.against_nominal;
   const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
@@ -230,7 +230,8 @@ class Search {
       const auto& verdict = verdicts[i];
       double largest = 0.0;
       for (std::size_t other = 0; other < count; ++other)
-        if (other != i) largest = std::max(largest, verdicts[other].strength);
+        if (other != i && worth_naming(fit_.model.effects[other]))
+          largest = std::max(largest, strength(fitter_.model(), fit_, less[other], false, bar_));
       const auto gains = gains_by_fold(fitter_.model(), fit_, less[i], bar_.folds);
       // one fold may hold all that a shape parameter is known from: it must not outvote the others
       const double most_lost = -verdict.gain / static_cast<double>(bar_.folds);

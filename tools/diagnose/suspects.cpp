@@ -43,7 +43,7 @@ std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, c
     const Active& active = with.model.effects.back();
     const auto& h = *score.hypothesis;
     if (!possible(active, with.model.axis) || !worth_naming(active)) continue;
-    const double strong = strength(fitter.model(), with, fit, h, bar);
+    const double strong = strength(fitter.model(), with, fit, h.about_reversals, bar);
     const bool held = holds(fitter.model(), with, fit, bar);
     progress(fmt::format("suspected: {} (strength {:.2f}, p {:.1g}{})", h.id, strong,
                          found.last.p_false_alarm(score.standard), held ? "" : ", not on unseen folds"));

@@ -54,9 +54,7 @@ struct Track {
   Vector force_sensor_N;
   Vector slip_m;  ///< linear scale less motor encoder
   MeterWindows meter;
-
-  /// Velocity that the power meter saw under the command of a sample.
-  [[nodiscard]] const Vector& metered_m_per_s() const { return meter.late ? velocity_m_per_s : centred_m_per_s; }
+  Vector metered_m_per_s;  ///< velocity that the power meter saw under the command of a sample, not smoothed
 };
 
 [[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);

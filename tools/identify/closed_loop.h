@@ -12,7 +12,7 @@
 #include "controllers/reference.h"
 #include "plant/feed_axis.h"
 #include "tools/identify/lanes/dispatch.h"
-#include "tools/identify/power_meter.h"
+#include "tools/recording/power_meter.h"
 #include "tools/recording/case.h"
 
 namespace feedtwin::tools {

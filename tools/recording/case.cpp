@@ -11,6 +11,7 @@
 #include "tools/config/input_error.h"
 #include "tools/config/toml_file.h"
 #include "tools/recording/checks.h"
+#include "tools/recording/power_meter.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -104,6 +105,9 @@ Case read_case(const std::string& path) {
   }
   result.fit = recordings(file, "fit", map, result);
   result.holdout = recordings(file, "holdout", map, result);
+  const std::size_t delay = meter_delay(result.fit, result.axis);
+  for (auto* some : {&result.fit, &result.holdout})
+    for (auto& recording : *some) recording.meter_delay = delay;
   for (const auto& recording : result.fit) {
     if (result.controller && !recording.has(channel::reference_m)) {
       file.fail("controller", fmt::format("a controller needs reference_m, which {} lacks", recording.file));

@@ -46,6 +46,7 @@ struct Recording {
   std::map<std::string, std::vector<double>, std::less<>> channels;  ///< all equally long
   std::vector<std::string> unused_columns;                           ///< of the file
   double sample_s = 0.0;                                             ///< between rows
+  std::size_t meter_delay = 0;                                       ///< of the power meter in rows (power_meter.h)
 
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] double duration_s() const noexcept { return static_cast<double>(size()) * sample_s; }

@@ -1,4 +1,4 @@
-#include "tools/identify/power_meter.h"
+#include "tools/recording/power_meter.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -20,26 +20,35 @@ Laws laws_of(double torque_Nm, double v, double rad_per_m) {
   return all;
 }
 
-/// Rms of what these laws leave over of the readings, however large each is; no readings: nothing.
-double unexplained_W(const Recording& recording, const MeteredPower& meter, const plant::AxisParameters& axis) {
-  const auto command = recording.at(channel::torque_cmd_Nm);
-  const auto position = recording.at(channel::position_m), power_W = recording.at(channel::power_W);
-  const auto readings = static_cast<Eigen::Index>(meter.rows.size());
-  if (readings < 3 * laws || command.empty() || position.empty()) return 0.0;
-  Eigen::MatrixXd rows(readings, laws);
-  Eigen::VectorXd shown(readings);
-  for (Eigen::Index i = 0; i < readings; ++i) {
-    const std::size_t row = meter.rows[static_cast<std::size_t>(i)], first = meter.first_tick(row);
-    Laws sum = Laws::Zero();
-    for (std::size_t k = first; k < std::min(first + meter.window, position.size() - 1); ++k)
-      sum += laws_of(command[k], (position[k + 1] - position[k]) / recording.sample_s, 2.0 * std::numbers::pi / axis.axis.lead_m);
-    rows.row(i) = sum / static_cast<double>(meter.window);
-    shown[i] = power_W[row];
+/// Sum of squares of what these laws leave over of the readings, however large each is; too few readings: nothing.
+double unexplained(std::span<const Recording> recordings, std::size_t delay, const plant::AxisParameters& axis) {
+  const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
+  Eigen::Matrix<double, laws, laws> normal = Eigen::Matrix<double, laws, laws>::Zero();
+  Eigen::Matrix<double, laws, 1> right = Eigen::Matrix<double, laws, 1>::Zero();
+  double squares = 0.0;
+  for (const Recording& recording : recordings) {
+    const auto command = recording.at(channel::torque_cmd_Nm), position = recording.at(channel::position_m);
+    const auto power_W = recording.at(channel::power_W);
+    if (position.empty()) continue;
+    MeteredPower meter = metered_rows(recording, axis);
+    if (meter.window == 1) continue;
+    meter.delay = delay;
+    for (const std::size_t row : meter.rows) {
+      if (row < meter.window || row + 1 >= position.size()) continue;
+      Laws sum = Laws::Zero();
+      for (std::size_t k = meter.first_tick(row); k < meter.first_tick(row) + meter.window; ++k)
+        sum += laws_of(command[k], (position[k + 1] - position[k]) / recording.sample_s, rad_per_m);
+      const auto mean = sum.matrix() / static_cast<double>(meter.window);
+      normal += mean * mean.transpose();
+      right += mean * power_W[row];
+      squares += power_W[row] * power_W[row];
+    }
   }
-  const Eigen::VectorXd size = rows.colwise().norm().cwiseMax(1e-300);
-  rows = rows * size.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd left = shown - rows * rows.colPivHouseholderQr().solve(shown);
-  return left.norm() / std::sqrt(static_cast<double>(readings));
+  const Eigen::Matrix<double, laws, 1> size = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  const Eigen::Matrix<double, laws, laws> scaled = size.cwiseInverse().asDiagonal() * normal * size.cwiseInverse().asDiagonal();
+  const Eigen::Matrix<double, laws, 1> found =
+      scaled.completeOrthogonalDecomposition().solve(right.cwiseQuotient(size)).cwiseQuotient(size);
+  return std::max(0.0, squares - 2.0 * found.dot(right) + found.dot(normal * found));
 }
 
 }  // namespace
@@ -75,12 +84,14 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
   if (power_W.empty()) return {};
   const double window = std::round(axis.power_meter_window_s / recording.sample_s);
   MeteredPower meter = metered_rows(power_W, static_cast<std::size_t>(window));
-  if (meter.window == 1) return meter;
-  MeteredPower late = meter;
-  late.delay = 1;
-  std::erase_if(late.rows, [&late](std::size_t row) { return row < late.window; });
-  constexpr double clearly = 0.5;
-  return unexplained_W(recording, late, axis) < clearly * unexplained_W(recording, meter, axis) ? late : meter;
+  if (meter.window > 1) meter.delay = recording.meter_delay;
+  std::erase_if(meter.rows, [&meter](std::size_t row) { return row + 1 < meter.window + meter.delay; });
+  return meter;
+}
+
+std::size_t meter_delay(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
+  constexpr double clearly = 0.25;  // of the squares
+  return unexplained(recordings, 1, axis) < clearly * unexplained(recordings, 0, axis) ? 1 : 0;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

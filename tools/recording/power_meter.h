@@ -22,9 +22,12 @@ struct MeteredPower {
 
 /// @param expected_window ticks, for a meter that shows too few different readings to tell its own; 0: unknown
 [[nodiscard]] MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_window = 0);
-/// Of a recording, which may have no power: with the window that the axis file states, and the delay under which the
-/// recorded command and motion explain the readings (at least twice as well, or 0).
+/// Of a recording, which may have no power: with the window that the axis file states and the recording's delay.
 [[nodiscard]] MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis);
+
+/// The delay of the meter that made these recordings: 1 where the recorded command and motion then explain the readings at
+/// least twice as well, otherwise 0.
+[[nodiscard]] std::size_t meter_delay(std::span<const Recording> recordings, const plant::AxisParameters& axis);
 
 /// A simulated power as the recording's meter would show it, row by row.
 [[nodiscard]] std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter);
