@@ -10,6 +10,7 @@
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
+#include "tools/diagnose/forward/sizes.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/reported.h"
@@ -79,69 +80,6 @@ Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResul
   for (const auto& active : final.effects)
     if (!rests_on_force(*active.hypothesis)) told.effects.push_back(active);
   return told;
-}
-
-/// The closed loop's covariance; the inverse model's own where a number moves nothing there by small steps: whole counts.
-Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance, const Eigen::MatrixXd& by_inverse_model,
-                                             const Candidate& model, Index base_count) {
-  constexpr double untold = 10.0;  // deviations that are so many times the number itself
-  Index at = base_count;
-  for (const auto& effect : model.effects)
-    for (std::size_t j = 0; j < effect.q.size(); ++j) {
-      if (!fitted(effect.hypothesis->parameters[j].kind)) continue;
-      const double variance = by_inverse_model(at, at);
-      if (covariance(at, at) > std::max(variance, std::pow(untold * effect.q[j], 2))) {
-        covariance.row(at).setZero();
-        covariance.col(at).setZero();
-        covariance(at, at) = variance;
-      }
-      ++at;
-    }
-  return covariance;
-}
-
-/// How far an effect's amplitudes are from zero, per amplitude. @param from where its unknowns begin
-double deviations_from_nothing(const Active& effect, const Eigen::MatrixXd& covariance, Index from) {
-  std::vector<Index> amplitudes;
-  std::vector<double> size;
-  Index at = from;
-  for (std::size_t j = 0; j < effect.q.size(); ++j) {
-    const Kind kind = effect.hypothesis->parameters[j].kind;
-    if (kind == Kind::amplitude && effect.q[j] != 0.0) amplitudes.push_back(at), size.push_back(effect.q[j]);
-    at += fitted(kind);
-  }
-  if (size.empty()) return 0.0;
-  const Eigen::Map<const Vector> value(size.data(), static_cast<Index>(size.size()));
-  const Eigen::MatrixXd spread = covariance(amplitudes, amplitudes);
-  return std::sqrt(std::max(0.0, value.dot(spread.ldlt().solve(value))) / static_cast<double>(size.size()));
-}
-
-/// Takes out what the closed loop, asked for its size, finds to be none: no channel changes when it goes, or its interval
-/// holds nothing.
-void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, Eigen::MatrixXd& covariance,
-                   const std::function<void(std::string_view)>& progress) {
-  constexpr double least_change = 2e-3, least_deviations = 2.0;
-  Index from = fit.base_count();
-  for (std::size_t e = 0; e < fit.model.effects.size();) {
-    const auto* hypothesis = fit.model.effects[e].hypothesis;
-    const auto own = static_cast<Index>(freedom(*hypothesis));
-    const auto with = forward.nrmse(extended(fit.model)), less = forward.nrmse(extended(without(fit.model, e)));
-    const bool felt = std::ranges::any_of(with, [&less](const auto& one) {
-      return std::abs(less.at(one.first) - one.second) > least_change * one.second;
-    });
-    const bool sized = felt && deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
-    if (sized || !worth_naming(fit.model.effects[e])) {
-      from += own, ++e;
-      continue;
-    }
-    progress(fmt::format("closed loop: {} has no size", hypothesis->id));
-    std::vector<Index> rest;
-    for (Index i = 0; i < covariance.rows(); ++i)
-      if (i < from || i >= from + own) rest.push_back(i);
-    covariance = Eigen::MatrixXd(covariance(rest, rest));
-    std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
-    fit.model = without(fit.model, e);
-  }
 }
 
 void plan_next(Diagnosis& result, const Evidence& seen, const std::function<void(std::string_view)>& progress) {

@@ -1,37 +1,15 @@
 #include "tools/diagnose/inverse_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "plant/axis_model.h"
-#include "tools/identify/whitening.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
 using Pair = plant::Doubles<2>;
-constexpr std::size_t taps = 17;
-
-/// Hamming-windowed low pass at a tenth of the sample rate.
-const std::array<double, taps>& low_pass() {
-  static const auto kernel = [] {
-    std::array<double, taps> made{};
-    double sum = 0.0;
-    for (std::size_t i = 0; i < taps; ++i) {
-      const double t = static_cast<double>(i) - (taps - 1) / 2.0;
-      const double argument = std::numbers::pi * 0.2 * t;
-      made[i] = (0.54 + 0.46 * std::cos(2.0 * std::numbers::pi * t / (taps - 1))) *
-                (t == 0.0 ? 1.0 : std::sin(argument) / argument);
-      sum += made[i];
-    }
-    for (double& weight : made) weight /= sum;
-    return made;
-  }();
-  return kernel;
-}
-
 std::vector<Equation> equations_for(const Track& track) {
   const bool torque = track.torque_sensor_N.size() > 0, force = track.force_sensor_N.size() > 0;
   std::vector<Equation> found;
@@ -97,66 +75,6 @@ InverseModel::InverseModel(std::vector<Track> tracks, const plant::AxisParameter
     }
   weigh_noise();
   find_settled();
-}
-
-void InverseModel::find_settled() {
-  constexpr double presliding_m = 5e-5, smeared_s = 0.03, filter_s = 0.01;
-  settled_.assign(static_cast<std::size_t>(rows_), true);
-  for (const auto& segment : segments_) {
-    const auto& equation = equations_[segment.equation];
-    if (equation.slip || equation.power) continue;
-    const Track& track = tracks_[segment.run];
-    std::vector<bool> slides(static_cast<std::size_t>(track.size));
-    double travelled_m = 1.0, elapsed_s = 1.0, direction = 0.0;
-    for (Index k = 0; k < track.size; ++k) {
-      const double v = track.centred_m_per_s[k];
-      const double now = std::abs(v) < standstill_m_per_s ? 0.0 : (v > 0.0 ? 1.0 : -1.0);
-      if (now == 0.0 || now != direction) travelled_m = elapsed_s = 0.0;
-      direction = now;
-      travelled_m += std::abs(v) * track.sample_s;
-      elapsed_s += track.sample_s;
-      slides[static_cast<std::size_t>(k)] = travelled_m > presliding_m && elapsed_s > smeared_s;
-    }
-    const Index ahead = std::lround(filter_s / track.sample_s);
-    for (Index i = 0; i < segment.size; ++i) {
-      const Index k = sample_of(segment, i);
-      settled_[static_cast<std::size_t>(segment.start + i)] =
-          slides[static_cast<std::size_t>(k)] && slides[static_cast<std::size_t>(std::min(k + ahead, track.size - 1))];
-    }
-  }
-}
-
-void InverseModel::weigh_noise() {
-  const auto model = plant::make_axis_model(nominal_);
-  const auto sigma = [](const Vector& x) { return white_sigma({x.data(), static_cast<std::size_t>(x.size())}); };
-  const auto& kernel = low_pass();
-  double flat = 0.0, twice = 0.0;  // what the low pass leaves of white noise, and of its second difference
-  for (std::size_t i = 0; i < taps + 2; ++i) {
-    const auto tap = [&](std::size_t j) { return j < taps ? kernel[j] : 0.0; };
-    const double second = tap(i) - 2.0 * (i > 0 ? tap(i - 1) : 0.0) + (i > 1 ? tap(i - 2) : 0.0);
-    flat += tap(i) * tap(i);
-    twice += second * second;
-  }
-  const Track& track = tracks_.front();
-  const double grid_m = nominal_.axis.lead_m / nominal_.axis.encoder_counts_per_rev;
-  noise_.acceleration = twice * grid_m * grid_m / 12.0 / std::pow(track.sample_s, 4);
-  noise_.torque_sensor = flat * std::pow(sigma(track.torque_sensor_N), 2);
-  noise_.force_sensor = flat * std::pow(sigma(track.force_sensor_N), 2);
-  noise_.slip = flat * std::pow(sigma(track.slip_m), 2);
-  const double acceleration = noise_.acceleration, torque = noise_.torque_sensor, force = noise_.force_sensor;
-  for (const auto& equation : equations_) {
-    const double mass =
-        equation.motor * model.motor_mass_kg + equation.screw * model.screw_mass_kg + equation.guide * model.table_mass_kg;
-    const double moved = acceleration * mass * mass;
-    const double sensed = (equation.motor != equation.screw) * torque + (equation.screw != equation.guide) * force;
-    acceleration_share_.push_back(moved / (moved + sensed + 1e-300));
-  }
-}
-
-Index InverseModel::sample_of(const Segment& segment, Index row) const {
-  const auto& meter = tracks_[segment.run].meter;
-  if (equations_[segment.equation].power) return meter.starts[static_cast<std::size_t>(row)] + meter.length / 2;
-  return margin + row * decimation;
 }
 
 std::vector<ContactForces> InverseModel::contacts(const plant::AxisParameters& axis,
@@ -300,24 +218,6 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
     r[i] -= at_rest ? std::clamp(r[i], -axis.motor.coulomb_N.neg, axis.motor.coulomb_N.pos) : base.motor_N[i];
   }
   return weight * r;
-}
-
-void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows) const {
-  const Track& track = tracks_[segment.run];
-  if (equations_[segment.equation].power) {
-    for (Index i = 0; i < segment.size; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      rows[segment.start + i] = track.meter.power_W[at] - raw.segment(track.meter.starts[at], track.meter.length).mean();
-    }
-    return;
-  }
-  const auto& kernel = low_pass();
-  const Eigen::Map<const Vector> weights(kernel.data(), taps);
-  for (Index i = 0; i < segment.size; ++i)
-    rows[segment.start + i] = weights.dot(raw.segment(margin + i * decimation - static_cast<Index>(taps / 2), taps));
-  if (!equations_[segment.equation].slip) return;
-  auto part = rows.segment(segment.start, segment.size);  // where either ruler has its zero tells nothing
-  part.array() -= part.mean();
 }
 
 InverseModel::Prepared InverseModel::prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,

@@ -1,11 +1,8 @@
-// The second engine's judgement between confused explanations, and what its likelihoods and the noise's colour rest on.
+// The second engine's judgement between confused explanations, and what its likelihoods rest on.
 
 #include "tools/diagnose/forward/arbiter.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/forward/extended_axis.h"
@@ -66,28 +63,6 @@ TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
   const Cogged made;
   EXPECT_EQ(made.settled({&hypothesis("torque_ripple"), {0.0, 0.0, 8.0}}), "cogging");
   EXPECT_EQ(made.settled({&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
-}
-
-TEST(RepeatableStructure, FindsWhatRepeatsAndNothingInNoise) {
-  std::vector<tools::Recording> runs;
-  for (const char* motion : {"sine", "triangle"})
-    runs.push_back(tests::make_recording(plant::source_axis(), {.motion = motion, .duration_s = 8.0}));
-  const InverseModel model(make_tracks(runs, plant::source_axis()), plant::source_axis());
-  const RepeatableStructure structure(model);
-  std::mt19937 random(11);  // NOLINT(bugprone-random-generator-seed): the same runs every time
-  std::normal_distribution<double> normal;
-  Vector noise(model.rows()), force(model.rows());
-  for (const auto& s : model.segments())
-    for (Index i = 0; i < s.size; ++i) {
-      const double x = model.tracks()[s.run].position_m[model.sample_of(s, i)];
-      noise[s.start + i] = normal(random);
-      force[s.start + i] = 400.0 * x;  // a spring
-    }
-  EXPECT_LT(structure.part_of(noise).norm(), 0.3 * noise.norm());
-  EXPECT_LT(structure.remaining(noise).share, 0.05);
-  const Vector both = noise + force;
-  EXPECT_GT(structure.remaining(both).share, 0.3);
-  EXPECT_LT((both - structure.part_of(both)).norm(), 0.9 * both.norm());
 }
 
 }  // namespace

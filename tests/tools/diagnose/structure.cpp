@@ -1,0 +1,85 @@
+// What is no noise: what repeats with place, speed and time since reversal, and lines of one frequency.
+
+#include "tools/diagnose/structure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "tests/support/made_case.h"
+#include "tools/diagnose/lines.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+struct Runs : testing::Test {
+  InverseModel model{make_tracks(made(), plant::source_axis()), plant::source_axis()};
+  std::mt19937 random{11};  // NOLINT(bugprone-random-generator-seed): the same runs every time
+
+  static std::vector<tools::Recording> made() {
+    std::vector<tools::Recording> runs;
+    for (const char* motion : {"sine", "triangle"})
+      runs.push_back(tests::make_recording(plant::source_axis(), {.motion = motion, .duration_s = 8.0}));
+    return runs;
+  }
+  [[nodiscard]] Vector rows_of(const std::function<double(const Track&, Index)>& value) const {
+    Vector rows(model.rows());
+    for (const auto& s : model.segments())
+      for (Index i = 0; i < s.size; ++i) rows[s.start + i] = value(model.tracks()[s.run], model.sample_of(s, i));
+    return rows;
+  }
+  [[nodiscard]] Vector noise() {
+    std::normal_distribution<double> normal;
+    return rows_of([&](const Track&, Index) { return normal(random); });
+  }
+  /// Norm over the rows where the axis has settled.
+  [[nodiscard]] double settled_norm(const Vector& rows) const {
+    double square = 0.0;
+    for (Index k = 0; k < rows.size(); ++k) square += model.settled(k) ? rows[k] * rows[k] : 0.0;
+    return std::sqrt(square);
+  }
+};
+
+TEST_F(Runs, WhatRepeatsIsFoundAndNothingInNoise) {
+  const RepeatableStructure structure(model);
+  const Vector hiss = noise(), both = hiss + rows_of([](const Track& t, Index k) { return 400.0 * t.position_m[k]; });
+  EXPECT_LT(structure.part_of(hiss).norm(), 0.3 * hiss.norm());
+  EXPECT_LT(structure.remaining(hiss).share, 0.05);
+  EXPECT_GT(structure.remaining(both).share, 0.3);
+  EXPECT_LT((both - structure.part_of(both)).norm(), 0.9 * both.norm());
+}
+
+TEST_F(Runs, ASpringAndABumpArePredictedWhereTheyWereNotSeen) {
+  const RepeatableStructure structure(model);
+  const Vector spring = rows_of([](const Track& t, Index k) { return 400.0 * t.position_m[k]; });
+  const Vector bump = rows_of([](const Track& t, Index k) {
+    return std::copysign(20.0 * std::exp(-std::pow((t.position_m[k] - 0.003) / 0.002, 2)), t.centred_m_per_s[k]);
+  });
+  EXPECT_LT(settled_norm(spring - structure.part_of(spring)), 0.2 * settled_norm(spring));
+  EXPECT_LT(settled_norm(bump - structure.part_of(bump)), 0.5 * settled_norm(bump));
+}
+
+TEST_F(Runs, LinesAreFoundWithTheirPhaseAndNoneInNoise) {
+  const Vector hiss = noise();
+  EXPECT_EQ(sharp_lines(model, hiss).norm(), 0.0);
+  const Vector line = rows_of([](const Track& t, Index k) {
+    const double time_s = static_cast<double>(k) * t.sample_s;
+    return std::sin(2.0 * std::numbers::pi * 23.456 * time_s + 0.3) + 0.5 * std::sin(2.0 * std::numbers::pi * 61.7 * time_s);
+  });
+  EXPECT_LT(settled_norm(sharp_lines(model, hiss + line) - line), 0.2 * settled_norm(line));
+}
+
+TEST_F(Runs, ColouredNoiseHasNoLines) {
+  double state = 0.0;
+  std::normal_distribution<double> normal;
+  const Vector coloured = rows_of([&](const Track&, Index) { return state = 0.9 * state + normal(random); });
+  EXPECT_EQ(sharp_lines(model, coloured).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace feedtwin

@@ -1,0 +1,47 @@
+#include "tools/recording/power_meter.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/made_case.h"
+
+namespace feedtwin::tools {
+namespace {
+
+std::vector<Recording> runs_of_the_plant() {
+  std::vector<Recording> runs;
+  for (const double speed : {0.02, 0.06})
+    runs.push_back(tests::make_recording(
+        plant::source_axis(),
+        {.motion = "sine", .settings = {.amplitude_m = 0.02, .speed_m_per_s = speed}, .duration_s = 6.0}));
+  return runs;
+}
+
+TEST(MeterDelay, OfThePlantsMeterIsNone) {
+  const auto runs = runs_of_the_plant();
+  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 0U);
+}
+
+TEST(MeterDelay, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
+  auto runs = runs_of_the_plant();
+  for (auto& run : runs) {
+    auto& power_W = run.channels.at(std::string(channel::power_W));
+    power_W.insert(power_W.begin(), power_W.front());
+    power_W.pop_back();
+    run.meter_delay = 1;
+  }
+  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 1U);
+  const auto meter = metered_rows(runs[0], plant::source_axis());
+  EXPECT_EQ(meter.delay, 1U);
+  EXPECT_EQ(meter.first_tick(meter.rows[0]) % meter.window, 0U);
+}
+
+TEST(MeterDelay, NeedsReadingsToBeTold) {
+  auto runs = runs_of_the_plant();
+  for (auto& run : runs) run.channels.erase(std::string(channel::power_W));
+  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 0U);
+  EXPECT_TRUE(metered_rows(runs[0], plant::source_axis()).rows.empty());
+  EXPECT_EQ(meter_delay({}, plant::source_axis()), 0U);
+}
+
+}  // namespace
+}  // namespace feedtwin::tools

@@ -1,0 +1,22 @@
+#pragma once
+// How large the closed loop finds each effect, once polished, and which have no size there.
+
+#include <functional>
+#include <string_view>
+
+#include "tools/diagnose/forward/forward_model.h"
+#include "tools/diagnose/search.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// The closed loop's covariance; the inverse model's own where a number moves nothing there by small steps: whole counts.
+[[nodiscard]] Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance,
+                                                           const Eigen::MatrixXd& by_inverse_model, const Candidate& model,
+                                                           Index base_count);
+
+/// Takes back names for which the closed loop finds no size: no channel changes when the effect goes, or its interval holds
+/// nothing. Their rows leave the covariance too.
+void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, Eigen::MatrixXd& covariance,
+                   const std::function<void(std::string_view)>& progress);
+
+}  // namespace feedtwin::tools::diagnosis
