@@ -16,8 +16,8 @@ constexpr int most_lines = 6;
 constexpr Index neighbourhood = 40, own_width = 5, least_rows = 200;
 
 struct Rows {
-  Vector values;    ///< of one segment, zero where the axis has not settled
-  Vector settled;   ///< 1 or 0
+  Vector values;   ///< of one segment, zero where the axis has not settled
+  Vector settled;  ///< 1 or 0
   double per_row_s;
 };
 

@@ -29,7 +29,8 @@ bool hidden(const Active& active, const plant::AxisParameters& axis, std::size_t
     if (active.hypothesis->parameters[j].kind != Kind::simulated) continue;
     auto near = active.q;
     near[j] += active.hypothesis->parameters[j].step;
-    if (active.hypothesis->named(near, axis)[value].value != active.hypothesis->named(active.q, axis)[value].value) return true;
+    if (active.hypothesis->named(near, axis)[value].value != active.hypothesis->named(active.q, axis)[value].value)
+      return true;
   }
   return false;
 }

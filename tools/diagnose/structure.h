@@ -32,9 +32,9 @@ class RepeatableStructure {
   [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
 
   const InverseModel& model_;
-  std::vector<std::vector<Index>> places_;             ///< settled rows of every run
-  Eigen::MatrixXd rows_;                               ///< a column a settled row, runs in turn
-  std::vector<std::vector<Index>> members_;            ///< of each fold
+  std::vector<std::vector<Index>> places_;   ///< settled rows of every run
+  Eigen::MatrixXd rows_;                     ///< a column a settled row, runs in turn
+  std::vector<std::vector<Index>> members_;  ///< of each fold
   /// Some parts of the additive model.
   struct Way {
     std::vector<Index> columns;

@@ -162,8 +162,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
     track.force_sensor_N = convolved(as_vector(recording.at(channel::force_sensor_N)), triangle);
   track.half_step_N = convolved(track.held_N, triangle) - track.command_N;
   if (recording.has(channel::power_W))
-    track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h,
-                                static_cast<Index>(recording.meter_delay));
+    track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h, static_cast<Index>(recording.meter_delay));
   track.metered_m_per_s = Vector::Zero(n);
   track.metered_m_per_s.head(n - 1) = (x.tail(n - 1) - x.head(n - 1)) / h;
   if (!track.meter.late) track.metered_m_per_s = about_sample(track.metered_m_per_s);

@@ -12,8 +12,8 @@
 #include "controllers/reference.h"
 #include "plant/feed_axis.h"
 #include "tools/identify/lanes/dispatch.h"
-#include "tools/recording/power_meter.h"
 #include "tools/recording/case.h"
+#include "tools/recording/power_meter.h"
 
 namespace feedtwin::tools {
 

@@ -45,7 +45,8 @@ double unexplained(std::span<const Recording> recordings, std::size_t delay, con
     }
   }
   const Eigen::Matrix<double, laws, 1> size = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
-  const Eigen::Matrix<double, laws, laws> scaled = size.cwiseInverse().asDiagonal() * normal * size.cwiseInverse().asDiagonal();
+  const Eigen::Matrix<double, laws, laws> scaled =
+      size.cwiseInverse().asDiagonal() * normal * size.cwiseInverse().asDiagonal();
   const Eigen::Matrix<double, laws, 1> found =
       scaled.completeOrthogonalDecomposition().solve(right.cwiseQuotient(size)).cwiseQuotient(size);
   return std::max(0.0, squares - 2.0 * found.dot(right) + found.dot(normal * found));

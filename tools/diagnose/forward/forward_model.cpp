@@ -12,7 +12,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 /// The stand-in follows the recorded motion half as tightly as where numbers are identified: what the encoder's grid then
-/// leaves in the command is a quarter (practice cases: 0.0006 of the command instead of 0.0023), and friction shows as before.
+/// leaves in the command is a quarter (practice cases: 0.0006 of the command instead of 0.0023), and friction shows as
+/// before.
 constexpr StandInSettings following{.bandwidth_rad_per_s = 75.0, .damping_ratio = 0.9, .filter_rad_per_s = 400.0};
 
 /// Squares of residual and of signal about its mean.
@@ -149,8 +150,7 @@ Nrmse ForwardModel::noise_floor(const plant::AxisParameters& axis) const {
   const auto simulated = simulate(axis);
   const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
   std::vector<Recording> made;
-  for (std::size_t r = 0; r < runs_.size(); ++r)
-    made.push_back(as_recorded(runs_[r], simulated[r], count_m, meter_.share));
+  for (std::size_t r = 0; r < runs_.size(); ++r) made.push_back(as_recorded(runs_[r], simulated[r], count_m, meter_.share));
   ForwardModel again(made, *data_);
   again.take_meter_from(*this);
   return again.nrmse(axis);

@@ -55,9 +55,8 @@ void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, E
     const auto* hypothesis = fit.model.effects[e].hypothesis;
     const auto own = static_cast<Index>(freedom(*hypothesis));
     const auto with = forward.nrmse(extended(fit.model)), less = forward.nrmse(extended(without(fit.model, e)));
-    const bool felt = std::ranges::any_of(with, [&less](const auto& one) {
-      return std::abs(less.at(one.first) - one.second) > least_change * one.second;
-    });
+    const bool felt = std::ranges::any_of(
+        with, [&less](const auto& one) { return std::abs(less.at(one.first) - one.second) > least_change * one.second; });
     const bool sized = felt && deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
     if (sized || !worth_naming(fit.model.effects[e])) {
       from += own, ++e;
