@@ -73,12 +73,23 @@ Likelihood likelihood(const ForwardModel& forward, const plant::AxisParameters& 
 }
 
 Comparison compared(const Likelihood& one, const Likelihood& other) {
+  constexpr double most_of_a_median = 10.0;  // a stretch's say in the deviations, or two of them outvote all others
   const std::size_t n = std::min(one.stretches.size(), other.stretches.size());
+  if (n == 0) return {};
+  std::vector<double> difference(n), size(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    difference[i] = one.stretches[i] - other.stretches[i];
+    size[i] = std::abs(difference[i]);
+  }
+  const double nats = std::accumulate(difference.begin(), difference.end(), 0.0);
+  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(n / 2);
+  std::ranges::nth_element(size, middle);
+  const double most = most_of_a_median * *middle + 1e-9;
   double sum = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < n; ++i) sum += one.stretches[i] - other.stretches[i];
-  const double mean = sum / static_cast<double>(std::max<std::size_t>(1, n));
-  for (std::size_t i = 0; i < n; ++i) squares += std::pow(one.stretches[i] - other.stretches[i] - mean, 2);
-  return {sum, sum / (std::sqrt(squares) + 1e-9)};
+  for (double& d : difference) sum += d = std::clamp(d, -most, most);
+  const double mean = sum / static_cast<double>(n);
+  for (const double d : difference) squares += (d - mean) * (d - mean);
+  return {nats, sum / (std::sqrt(squares) + 1e-9)};
 }
 
 }  // namespace feedtwin::tools::diagnosis
