@@ -73,7 +73,8 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     progress_(fmt::format("closed loop, {} in place of {}: {:+.0f} nats, {:+.1f} deviations", score.hypothesis->id,
                           named->id, rival.value - now.value, difference.deviations));
     const double better = rival.value - now.value;
-    const bool clear = std::abs(better) > clearly_nats && std::copysign(difference.deviations, better) == difference.deviations &&
+    const bool clear = std::abs(better) > clearly_nats &&
+                       std::copysign(difference.deviations, better) == difference.deviations &&
                        std::abs(difference.deviations) > clearly_deviations;
     if (!clear) entry->rivals.push_back(score.hypothesis);
     if (!clear || rival.value < now.value) continue;
