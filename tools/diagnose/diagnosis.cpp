@@ -21,10 +21,6 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double smallest_share_held_out = 0.35;
-/// Without an effect the closed loop must be this many times as far off in some channel on the runs of the fit, or it is not
-/// named. On practice and challenge cases, seen on held-out runs, right names made 1.048 and more, a third of the wrong ones
-/// less than 1.02.
-constexpr double least_error_ratio = 1.02;
 constexpr double least_gain_of_a_table = 0.98;  // closed loop, runs of the fit: else the table stays out of the model
 constexpr double smallest_remainder_N = 1.0;
 
@@ -37,7 +33,7 @@ void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchRes
     auto seen = confirm(forward, fitter, found.whitening, fit.model, e);
     progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
                          seen.channel.empty() ? "no channel" : seen.channel, seen.error_ratio));
-    if (seen.error_ratio > least_error_ratio) continue;
+    if (seen.error_ratio > hypothesis->least_error_ratio) continue;
     fit = std::move(seen.without);
     std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
   }

@@ -25,8 +25,8 @@ struct MeteredPower {
 /// Of a recording, which may have no power: with the window that the axis file states and the recording's delay.
 [[nodiscard]] MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis);
 
-/// The delay of the meter that made these recordings: 1 where the recorded command and motion then explain the readings at
-/// least twice as well, otherwise 0.
+/// The delay of the meter that made these recordings: 1 where the recorded command and motion then explain the readings
+/// clearly better, otherwise 0.
 [[nodiscard]] std::size_t meter_delay(std::span<const Recording> recordings, const plant::AxisParameters& axis);
 
 /// A simulated power as the recording's meter would show it, row by row.
