@@ -75,8 +75,9 @@ TEST(ForwardModel, ConfirmsWhatIsThereAndNotWhatIsNot) {
 }
 
 TEST(ExtendedAxis, AGapBesideASpringAddsNoSpringOfItsOwn) {
-  const auto axis =
-      extended({plant::source_axis(), {{&hypothesis("backlash"), {4e-6}}, {&hypothesis("screw_compliance"), {2e-8}}}});
+  const auto axis = extended(
+      {plant::source_axis(),
+       {{&hypothesis("backlash"), {4e-6, std::log(6e7), std::log(2e3)}}, {&hypothesis("screw_compliance"), {2e-8}}}});
   ASSERT_EQ(axis.effects.size(), 2U);
   const auto stiffness = [&axis](std::size_t i) {
     auto setting = axis.effects[i];
