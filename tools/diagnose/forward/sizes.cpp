@@ -49,15 +49,17 @@ Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance, const E
 
 void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, Eigen::MatrixXd& covariance,
                    const std::function<void(std::string_view)>& progress) {
-  constexpr double least_change = 2e-3, least_deviations = 2.0;
+  constexpr double least_change = 2e-3, doubtless_change = 0.05, least_deviations = 2.0;
   Index from = fit.base_count();
   for (std::size_t e = 0; e < fit.model.effects.size();) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
     const auto own = static_cast<Index>(freedom(*hypothesis));
     const auto with = forward.nrmse(extended(fit.model)), less = forward.nrmse(extended(without(fit.model, e)));
-    const bool felt = std::ranges::any_of(
-        with, [&less](const auto& one) { return std::abs(less.at(one.first) - one.second) > least_change * one.second; });
-    const bool sized = felt && deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
+    double change = 0.0;  // as a share of a channel's error
+    for (const auto& [channel, error] : with)
+      if (error > 0.0) change = std::max(change, std::abs(less.at(channel) / error - 1.0));
+    const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
+    const bool sized = change > (told ? least_change : doubtless_change);
     if (sized || !worth_naming(fit.model.effects[e])) {
       from += own, ++e;
       continue;
