@@ -1,5 +1,6 @@
 // Dead time: the command acts later.
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/diagnose/hypotheses/registry.h"
@@ -9,9 +10,12 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const Vector late = delayed(view.track.held_N, q[0] / view.track.sample_s), about = about_sample(late);
+  const double samples = q[0] / view.track.sample_s;
+  const Vector about = about_sample(delayed(view.track.held_N, samples));
   add(sum.drive_N, about - view.track.command_N);
-  add(sum.drive_step_N, late - about - (view.track.held_N - view.track.command_N));
+  // at the sample's instant, when the sensors read, the command before still acts, however short the delay
+  const Vector instant = delayed(view.track.held_N, std::max(1.0, std::ceil(samples)));
+  add(sum.drive_step_N, instant - about - (view.track.held_N - view.track.command_N));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
