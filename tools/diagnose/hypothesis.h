@@ -79,6 +79,7 @@ struct Hypothesis {
   /// Without it the closed loop must be this many times as far off in some channel on the runs of the fit. On practice and
   /// challenge cases, seen on held-out runs, right names made 1.048 and more, a third of the wrong ones less than 1.02.
   double least_error_ratio = 1.02;
+  bool only_readings = false;    ///< changes what the sensors show and nothing else: only their channels bear it out
   bool about_reversals = false;  ///< acts there first: its strength counts there too
   /// Is this size a finding? Smaller ones stay in the model as nuisances, since they explain how the channels read.
   bool (*finding)(std::span<const double> q) = nullptr;

@@ -44,6 +44,7 @@ Hypothesis sensor_gain() {
               "a sensor's gain is off: the torque sensor shows {torque_sensor_gain}, the force sensor {force_sensor_gain} "
               "of the truth",
           .absorbed = true,
+          .only_readings = true,
           .confused_with = {"torque_gain_error"},
           .friction = false};
 }
