@@ -9,7 +9,6 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-using Pair = plant::Doubles<2>;
 std::vector<Equation> equations_for(const Track& track) {
   const bool torque = track.torque_sensor_N.size() > 0, force = track.force_sensor_N.size() > 0;
   std::vector<Equation> found;

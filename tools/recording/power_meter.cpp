@@ -26,6 +26,7 @@ double unexplained(std::span<const Recording> recordings, std::size_t delay, con
   Eigen::Matrix<double, laws, laws> normal = Eigen::Matrix<double, laws, laws>::Zero();
   Eigen::Matrix<double, laws, 1> right = Eigen::Matrix<double, laws, 1>::Zero();
   double squares = 0.0;
+  int readings = 0;
   for (const Recording& recording : recordings) {
     const auto command = recording.at(channel::torque_cmd_Nm), position = recording.at(channel::position_m);
     const auto power_W = recording.at(channel::power_W);
@@ -42,8 +43,10 @@ double unexplained(std::span<const Recording> recordings, std::size_t delay, con
       normal += mean * mean.transpose();
       right += mean * power_W[row];
       squares += power_W[row] * power_W[row];
+      ++readings;
     }
   }
+  if (readings < 3 * laws) return 0.0;
   const Eigen::Matrix<double, laws, 1> size = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Eigen::Matrix<double, laws, laws> scaled =
       size.cwiseInverse().asDiagonal() * normal * size.cwiseInverse().asDiagonal();

@@ -6,6 +6,7 @@
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/sizes.h"
 
 namespace feedtwin {
 namespace {
@@ -63,6 +64,26 @@ TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
   const Cogged made;
   EXPECT_EQ(made.settled({&hypothesis("torque_ripple"), {0.0, 0.0, 8.0}}), "cogging");
   EXPECT_EQ(made.settled({&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
+}
+
+TEST(Sizes, WhatTheClosedLoopFindsToBeNothingIsTakenBackAndNothingElse) {
+  const Cogged made;
+  const Candidate both{made.data.axis,
+                       {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}, {&hypothesis("torque_ripple"), {1e-7, 0.0, 8.0}}}};
+  Fit fit = made.fitter.linearised(both, made.whitening);
+  SearchResult result;
+  for (const auto& effect : both.effects) {
+    Found named;
+    named.effect = effect;
+    result.found.push_back(named);
+  }
+  Eigen::MatrixXd covariance = fit.covariance;
+  drop_sizeless(made.forward, result, fit, covariance, silent);
+  ASSERT_EQ(fit.model.effects.size(), 1U);
+  EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
+  ASSERT_EQ(result.found.size(), 1U);
+  EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
+  EXPECT_EQ(covariance.rows(), fit.base_count() + static_cast<Index>(freedom(hypothesis("cogging"))));
 }
 
 }  // namespace

@@ -35,6 +35,16 @@ TEST(MeterDelay, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
   EXPECT_EQ(meter.first_tick(meter.rows[0]) % meter.window, 0U);
 }
 
+TEST(MeterDelay, IsNotToldByAFewReadings) {
+  auto runs = runs_of_the_plant();
+  runs.resize(1);
+  for (auto& [name, values] : runs[0].channels) values.resize(850);
+  auto& power_W = runs[0].channels.at(std::string(channel::power_W));
+  power_W.insert(power_W.begin(), power_W.front());  // what would be told from more
+  power_W.pop_back();
+  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 0U);
+}
+
 TEST(MeterDelay, NeedsReadingsToBeTold) {
   auto runs = runs_of_the_plant();
   for (auto& run : runs) run.channels.erase(std::string(channel::power_W));

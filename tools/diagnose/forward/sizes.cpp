@@ -51,16 +51,20 @@ void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, E
                    const std::function<void(std::string_view)>& progress) {
   constexpr double least_change = 2e-3, doubtless_change = 0.05, least_deviations = 2.0;
   Index from = fit.base_count();
+  Nrmse with = forward.nrmse(extended(fit.model));
   for (std::size_t e = 0; e < fit.model.effects.size();) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
     const auto own = static_cast<Index>(freedom(*hypothesis));
-    const auto with = forward.nrmse(extended(fit.model)), less = forward.nrmse(extended(without(fit.model, e)));
+    if (!worth_naming(fit.model.effects[e])) {
+      from += own, ++e;
+      continue;
+    }
+    auto less = forward.nrmse(extended(without(fit.model, e)));
     double change = 0.0;  // as a share of a channel's error
     for (const auto& [channel, error] : with)
       if (error > 0.0) change = std::max(change, std::abs(less.at(channel) / error - 1.0));
     const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
-    const bool sized = change > (told ? least_change : doubtless_change);
-    if (sized || !worth_naming(fit.model.effects[e])) {
+    if (change > (told ? least_change : doubtless_change)) {
       from += own, ++e;
       continue;
     }
@@ -71,6 +75,7 @@ void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, E
     covariance = Eigen::MatrixXd(covariance(rest, rest));
     std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
     fit.model = without(fit.model, e);
+    with = std::move(less);
   }
 }
 
