@@ -61,7 +61,9 @@ double Drive::sliding_factor(const State& y, double t, double v) const {
   factor *= 1.0 + e_.dwell_rise * (1.0 - std::exp(-y[age] / e_.dwell_s));
   factor *= 1.0 + e_.drift_change * (1.0 - std::exp(-t / e_.drift_s));
   if (e_.load_friction > 0.0) {
-    const double nut_N = rigid() ? axis_.table_kg * last_acceleration_ + last_table_N_ : coupling_N(y);
+    // the load on the nut without the guide's own friction, which is there without any load
+    const double guide_N = steady_N(side(axis_.guide, y[v2]), std::abs(y[v2])) * (y[v2] < 0.0 ? -1.0 : 1.0);
+    const double nut_N = rigid() ? axis_.table_kg * last_acceleration_ + last_table_N_ : coupling_N(y) - guide_N;
     factor *= 1.0 + e_.load_friction * std::abs(nut_N) / side(axis_.screw, v).coulomb_N;
   }
   return std::max(0.01, factor);

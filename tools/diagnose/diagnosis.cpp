@@ -123,7 +123,9 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
     if (closest(forward, {extended(polished.model, worth_naming), extended(fit.model, worth_naming)}) == 0) {
       fit.model = polished.model;
       covariance = with_what_only_inverse_tells(polished.covariance, covariance, polished.model, fit.base_count());
-      drop_sizeless(forward, found, fit, covariance, progress);
+      const std::size_t named = fit.model.effects.size();
+      drop_sizeless(forward, by_inverse_model.model, found, fit, covariance, progress);
+      if (fit.model.effects.size() < named) fit.model = polished_if_closer(forward, fitter, fit.model);
     }
   }
 

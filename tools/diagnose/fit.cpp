@@ -126,8 +126,10 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
 }
 
 Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iterations) const {
+  constexpr int longer = 5;            // times as many iterations while it still goes down fast:
+  constexpr double fast_share = 1e-3;  // steps are bounded, and from a far start a few do not arrive
   Fit best = linearised(start, whitening);
-  for (int i = 0; i < iterations; ++i) {
+  for (int i = 0; i < longer * iterations; ++i) {
     const Eigen::MatrixXd information = best.jacobian.transpose() * best.jacobian;
     const Vector slope = best.jacobian.transpose() * best.white;
     bool better = false;
@@ -149,7 +151,7 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
     if (!better) break;
     const double gain = best.cost - cost;
     best = linearised(next, whitening);
-    if (gain < 1e-5 * best.cost) break;
+    if (gain < (i + 1 < iterations ? 1e-5 : fast_share) * best.cost) break;
   }
   return best;
 }

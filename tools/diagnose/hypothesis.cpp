@@ -26,6 +26,11 @@ bool worth_naming(const Active& active) {
   return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
 }
 
+bool easily_confused(const Hypothesis& one, const Hypothesis& other) {
+  return std::ranges::find(one.confused_with, other.id) != one.confused_with.end() ||
+         std::ranges::find(other.confused_with, one.id) != other.confused_with.end();
+}
+
 std::size_t freedom(const Hypothesis& hypothesis) {
   return static_cast<std::size_t>(
       std::ranges::count_if(hypothesis.parameters, [](const auto& p) { return fitted(p.kind); }));

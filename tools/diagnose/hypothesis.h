@@ -105,6 +105,8 @@ struct Active {
 [[nodiscard]] constexpr bool fitted(Kind kind) {
   return kind == Kind::amplitude || kind == Kind::shape;
 }
+/// Does either name the other as what it is confused with?
+[[nodiscard]] bool easily_confused(const Hypothesis& one, const Hypothesis& other);
 /// Working parameters that are fitted.
 [[nodiscard]] std::size_t freedom(const Hypothesis& hypothesis);
 

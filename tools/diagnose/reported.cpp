@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/hypotheses/shapes.h"
 #include "tools/diagnose/sentence.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -35,6 +36,12 @@ bool hidden(const Active& active, const plant::AxisParameters& axis, std::size_t
   return false;
 }
 
+/// A line has a phase in each of several runs, and of those that are not there nothing is known.
+bool of_no_run(const Active& active, std::size_t parameter) {
+  const bool line = active.hypothesis->where == Where::frequency;
+  return line && active.hypothesis->parameters[parameter].kind == Kind::amplitude && !has_line(active.q, parameter / 2);
+}
+
 /// Intervals of what is reported, from the covariance of what was fitted.
 std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Eigen::MatrixXd& covariance,
                                                         std::size_t effect) {
@@ -47,7 +54,7 @@ std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Ei
     if (hidden(active, axis, i)) continue;
     Vector slope = Vector::Zero(covariance.rows());
     for (std::size_t j = 0; j < active.q.size(); ++j) {
-      if (places[j] < 0) continue;
+      if (places[j] < 0 || of_no_run(active, j)) continue;
       const double sigma = std::sqrt(std::max(0.0, covariance(places[j], places[j])));
       const double step = 1e-3 * std::max(sigma, 1e-6 * std::abs(active.q[j])) + 1e-300;
       auto near = active.q;

@@ -35,9 +35,8 @@ Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const 
   const bool doubtful = hypothesis.absorbed && v.surprise < -bar.against_nominal;
   const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
   const bool strong = v.strength > least && v.gain > needed;
-  const bool impossible_otherwise =
-      hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
-      (v.strength > bar.absorbed_strength || (hypothesis.number_of_the_model && v.surprise > bar.number_gain));
+  const bool impossible_otherwise = hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
+                                    (v.strength > bar.absorbed_strength || v.surprise > bar.number_gain);
   v.enough = strong || impossible_otherwise;
   return v;
 }
@@ -61,6 +60,13 @@ std::string in_words(const Active& active, const plant::AxisParameters& axis) {
     values += fmt::format("{}{} {:.4g}", values.empty() ? "" : ", ", name, value);
   return fmt::format("{} ({})", active.hypothesis->id, values);
 }
+
+/// A hypothesis that passed the bar, in the model.
+struct Tried {
+  Fit fit;
+  double value = 0.0;  ///< gain less what its parameters are charged
+  double p_false_alarm = 1.0;
+};
 
 class Search {
  public:
@@ -112,8 +118,7 @@ class Search {
 
   /// The best of the hypotheses that pass the bar, refitted jointly.
   bool add_best() {
-    std::optional<Fit> best;
-    double most = 0.0, p_best = 1.0;
+    std::vector<Tried> enough;
     std::size_t tried = 0;
     std::vector<Score> scores = last_.scores;
     const auto worth = [this](const Score& s) {
@@ -134,14 +139,31 @@ class Search {
                             verdict.strength));
       if (!verdict.enough) continue;
       const double value = verdict.gain - bar_.per_parameter * static_cast<double>(freedom(*score.hypothesis));
-      if (value > most) most = value, p_best = p, best = std::move(fit);
+      enough.push_back({std::move(fit), value, p});
     }
-    if (!best) return false;
-    progress_("adding " + in_words(best->model.effects.back(), best->model.axis));
-    chances_.push_back(p_best);
+    if (enough.empty()) return false;
+    Tried& best = preferred(enough);
+    progress_("adding " + in_words(best.fit.model.effects.back(), best.fit.model.axis));
+    chances_.push_back(best.p_false_alarm);
     earlier_.push_back(last_.scores);
-    fit_ = fitter_.fit_with_colour(best->model, whitening_, 2, iterations);
+    fit_ = fitter_.fit_with_colour(best.fit.model, whitening_, 2, iterations);
     return true;
+  }
+
+  /// The one that explains most; but a nuisance waits while a finding that it could be mistaken for explains nearly as much:
+  /// it comes in after it, where it is there too.
+  static Tried& preferred(std::vector<Tried>& tried) {
+    constexpr double nearly = 0.7;
+    Tried* best = &*std::ranges::max_element(tried, std::less{}, &Tried::value);
+    const Active& first = best->fit.model.effects.back();
+    if (worth_naming(first)) return *best;
+    Tried* finding = nullptr;
+    for (auto& other : tried) {
+      const Active& effect = other.fit.model.effects.back();
+      if (!worth_naming(effect) || !easily_confused(*effect.hypothesis, *first.hypothesis)) continue;
+      if (other.value > nearly * best->value && (finding == nullptr || other.value > finding->value)) finding = &other;
+    }
+    return finding != nullptr ? *finding : *best;
   }
 
   void drop(std::size_t effect, const Candidate& less, const Verdict& why) {

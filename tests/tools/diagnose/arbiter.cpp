@@ -78,12 +78,30 @@ TEST(Sizes, WhatTheClosedLoopFindsToBeNothingIsTakenBackAndNothingElse) {
     result.found.push_back(named);
   }
   Eigen::MatrixXd covariance = fit.covariance;
-  drop_sizeless(made.forward, result, fit, covariance, silent);
+  drop_sizeless(made.forward, both, result, fit, covariance, silent);
   ASSERT_EQ(fit.model.effects.size(), 1U);
   EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
   ASSERT_EQ(result.found.size(), 1U);
   EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
   EXPECT_EQ(covariance.rows(), fit.base_count() + static_cast<Index>(freedom(hypothesis("cogging"))));
+}
+
+TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
+  const Cogged made;
+  const auto left_of = [&made](double by_inverse_model_Nm) {
+    const auto with = [&made](double amplitude_Nm) {
+      return Candidate{made.data.axis, {{&hypothesis("cogging"), {amplitude_Nm, 0.0, 8.0}}}};
+    };
+    Fit fit = made.fitter.linearised(with(0.01), made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = fit.model.effects[0];
+    Eigen::MatrixXd covariance = fit.covariance;
+    drop_sizeless(made.forward, with(by_inverse_model_Nm), result, fit, covariance, silent);
+    EXPECT_EQ(result.found.size(), fit.model.effects.size());
+    return fit.model.effects.size();
+  };
+  EXPECT_EQ(left_of(0.02), 1U);
+  EXPECT_EQ(left_of(0.1), 0U);
 }
 
 }  // namespace

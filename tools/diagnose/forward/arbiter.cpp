@@ -16,11 +16,6 @@ constexpr double clearly_nats = 12.0, clearly_deviations = 1.5;
 constexpr double hopeless = 0.5;
 constexpr int iterations = 6;
 
-bool confused(const Hypothesis& one, const Hypothesis& other) {
-  return std::ranges::find(one.confused_with, other.id) != one.confused_with.end() ||
-         std::ranges::find(other.confused_with, one.id) != other.confused_with.end();
-}
-
 double freedom(const Candidate& model) {
   double count = 0.0;
   for (const auto& effect : model.effects) count += static_cast<double>(freedom(*effect.hypothesis));
@@ -55,7 +50,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   if (entry == found.found.end() || !can_be_named(fit.model.effects[e], fit.model.axis)) return false;
   std::vector<const Hypothesis*> asked = entry->rivals;
   for (const auto& other : hypotheses())
-    if (confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);
+    if (easily_confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);
   std::erase_if(asked, [&](const Hypothesis* other) { return has(fit.model, *other); });
   const Fit less = fitter_.fit(without(fit.model, e), found.whitening, iterations);
   for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {

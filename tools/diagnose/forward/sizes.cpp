@@ -11,6 +11,19 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+/// The closed loop's size of an effect as a share of the inverse model's; 1 where that does not have it.
+double share_of_size(const Active& effect, const Candidate& by_inverse_model) {
+  const auto same = std::ranges::find(by_inverse_model.effects, effect.hypothesis, &Active::hypothesis);
+  if (same == by_inverse_model.effects.end()) return 1.0;
+  double now = 0.0, before = 0.0;
+  for (std::size_t j = 0; j < effect.q.size(); ++j) {
+    if (effect.hypothesis->parameters[j].kind != Kind::amplitude) continue;
+    now += effect.q[j] * effect.q[j];
+    before += same->q[j] * same->q[j];
+  }
+  return before > 0.0 ? std::sqrt(now / before) : 1.0;
+}
+
 /// How far an effect's amplitudes are from zero, per amplitude. @param from where its unknowns begin
 double deviations_from_nothing(const Active& effect, const Eigen::MatrixXd& covariance, Index from) {
   std::vector<Index> amplitudes;
@@ -47,9 +60,9 @@ Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance, const E
   return covariance;
 }
 
-void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, Eigen::MatrixXd& covariance,
-                   const std::function<void(std::string_view)>& progress) {
-  constexpr double least_change = 2e-3, doubtless_change = 0.05, least_deviations = 2.0;
+void drop_sizeless(const ForwardModel& forward, const Candidate& by_inverse_model, SearchResult& found, Fit& fit,
+                   Eigen::MatrixXd& covariance, const std::function<void(std::string_view)>& progress) {
+  constexpr double least_change = 2e-3, doubtless_change = 0.05, least_deviations = 3.0, least_share = 0.2;
   Index from = fit.base_count();
   Nrmse with = forward.nrmse(extended(fit.model));
   for (std::size_t e = 0; e < fit.model.effects.size();) {
@@ -64,7 +77,8 @@ void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, E
     for (const auto& [channel, error] : with)
       if (error > 0.0) change = std::max(change, std::abs(less.at(channel) / error - 1.0));
     const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
-    if (change > (told ? least_change : doubtless_change)) {
+    const bool agreed = share_of_size(fit.model.effects[e], by_inverse_model) > least_share;
+    if (agreed && change > (told ? least_change : doubtless_change)) {
       from += own, ++e;
       continue;
     }

@@ -14,9 +14,9 @@ namespace feedtwin::tools::diagnosis {
                                                            const Eigen::MatrixXd& by_inverse_model, const Candidate& model,
                                                            Index base_count);
 
-/// Takes back names for which the closed loop finds no size: no channel changes when the effect goes, or its interval holds
-/// nothing. Their rows leave the covariance too.
-void drop_sizeless(const ForwardModel& forward, SearchResult& found, Fit& fit, Eigen::MatrixXd& covariance,
-                   const std::function<void(std::string_view)>& progress);
+/// Takes back names for which the closed loop finds no size: no channel changes when the effect goes, its interval holds
+/// nothing, or it is a small part of what the inverse model found. Their rows leave the covariance too.
+void drop_sizeless(const ForwardModel& forward, const Candidate& by_inverse_model, SearchResult& found, Fit& fit,
+                   Eigen::MatrixXd& covariance, const std::function<void(std::string_view)>& progress);
 
 }  // namespace feedtwin::tools::diagnosis

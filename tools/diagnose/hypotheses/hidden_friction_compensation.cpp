@@ -33,7 +33,7 @@ Hypothesis hidden_friction_compensation() {
           .admissible = possible,
           .sentence = "the drive compensates friction on its own: {torque_Nm} N m beyond its command",
           .absorbed = true,
-          .confused_with = {"torque_gain_error"},
+          .confused_with = {"torque_gain_error", "torque_offset", "direction_dependent_friction"},
           .friction = false};
 }
 

@@ -4,6 +4,15 @@
 #include <cmath>
 
 namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr std::size_t line_runs = 4;
+
+double line_square(std::span<const double> q, std::size_t run) {
+  return q[2 * run] * q[2 * run] + q[2 * run + 1] * q[2 * run + 1];
+}
+
+}  // namespace
 
 Vector wave(const Vector& x, double period, double order, double sine, double cosine) {
   const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * order / period * x.array();
@@ -71,20 +80,24 @@ std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz) {
 }
 
 void add_line(const Track& track, std::span<const double> q, Vector& force_N) {
-  const std::size_t run = std::min<std::size_t>(track.run, 3);
+  const std::size_t run = std::min<std::size_t>(track.run, line_runs - 1);
   if (q[2 * run] == 0.0 && q[2 * run + 1] == 0.0) return;
   const Vector t = Vector::LinSpaced(track.size, 0.0, static_cast<double>(track.size - 1) * track.sample_s);
   add(force_N, wave(t, 1.0, q[8], q[2 * run], q[2 * run + 1]));
 }
 
+bool has_line(std::span<const double> q, std::size_t run) {
+  constexpr double there = 0.01;  // of the largest square; less is a step of differences
+  double largest = 0.0;
+  for (std::size_t other = 0; other < line_runs; ++other) largest = std::max(largest, line_square(q, other));
+  return line_square(q, run) > there * largest;
+}
+
 double line_amplitude(std::span<const double> q) {
-  double square = 0.0, runs = 0.0;
-  for (std::size_t run = 0; run < 4; ++run) {
-    const double own = q[2 * run] * q[2 * run] + q[2 * run + 1] * q[2 * run + 1];
-    square += own;
-    runs += own > 0.0;
-  }
-  return std::sqrt(square / std::max(1.0, runs));
+  double sum = 0.0, runs = 0.0;
+  for (std::size_t run = 0; run < line_runs; ++run)
+    if (has_line(q, run)) sum += line_square(q, run), runs += 1.0;
+  return std::sqrt(sum / std::max(1.0, runs));
 }
 
 Grid torque_limits() {
