@@ -35,6 +35,7 @@ void adapt_steps(const LeastSquaresSolution& at, const std::vector<FitParameter>
 /// Slopes at a solution from differences to either side. Row by row the gentler one counts, none where they disagree in
 /// sign: a jump stands on one side only, and is no knowledge.
 void linearise_both_ways(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
+  constexpr double at_bound = 1e-3;  // of a step: what is left up to a bound is rounding, and no difference
   const Index n = at.point.size();
   MatrixXd points = at.point.replicate(1, 2 * n);
   for (Index i = 0; i < n; ++i) {
@@ -43,7 +44,10 @@ void linearise_both_ways(const LeastSquaresProblem& problem, LeastSquaresSolutio
   }
   const MatrixXd residuals = problem.residuals(points);
   for (Index i = 0; i < n; ++i) {
-    const double ahead = points(i, 2 * i) - at.point[i], back = at.point[i] - points(i, 2 * i + 1);
+    const double least = at_bound * problem.step[i];
+    double ahead = points(i, 2 * i) - at.point[i], back = at.point[i] - points(i, 2 * i + 1);
+    if (ahead < least) ahead = 0.0;
+    if (back < least) back = 0.0;
     for (Index row = 0; row < residuals.rows(); ++row) {
       const double here = at.residuals[row];
       const double right = ahead > 0.0 ? (residuals(row, 2 * i) - here) / ahead : 0.0;
