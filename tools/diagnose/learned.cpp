@@ -1,16 +1,18 @@
 #include "tools/diagnose/learned.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "plant/effects/registry.h"
+#include "tools/diagnose/taken_up.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
 struct Rows {
-  std::vector<double> remainder_N, position_m, velocity_m_per_s, since_reversal_s;
+  std::vector<double> remainder_N, position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s;
 };
 
 /// Sum of the force equations' residuals, with where the axis was.
@@ -33,10 +35,21 @@ Rows force_rows(const InverseModel& model, const Candidate& at) {
       rows.remainder_N.push_back(sum[i]);
       rows.position_m.push_back(track.position_m[k]);
       rows.velocity_m_per_s.push_back(track.centred_m_per_s[k]);
+      rows.acceleration_m_per_s2.push_back(slow_acceleration_m_per_s2(track, k));
       rows.since_reversal_s.push_back(track.since_reversal_s[k]);
     }
   }
   return rows;
+}
+
+/// Takes off what the numbers could do of the rows to learn from, and as much of the others.
+void take_off_numbers(Rows& rows, Rows& others) {
+  const auto columns = [](const Rows& r) { return columns_of_numbers(r.acceleration_m_per_s2, r.velocity_m_per_s); };
+  const auto remainder = [](Rows& r) {
+    return Eigen::Map<Vector>(r.remainder_N.data(), static_cast<Index>(r.remainder_N.size()));
+  };
+  const Vector numbers = columns(rows).colPivHouseholderQr().solve(remainder(rows));
+  for (Rows* some : {&rows, &others}) remainder(*some) -= columns(*some) * numbers;
 }
 
 std::vector<double> arguments(const Rows& rows, Where axis) {
@@ -125,10 +138,11 @@ void judge(Learned& table, const Rows& rows) {
 }  // namespace
 
 Learned learn_remainder(const InverseModel& model, const InverseModel& others, const Candidate& at) {
-  const Rows rows = force_rows(model, at), unseen = force_rows(others, at);
+  Rows rows = force_rows(model, at), unseen = force_rows(others, at);
   Learned best;
   best.share_held_out = -1.0;
   if (rows.remainder_N.size() < 200 || unseen.remainder_N.size() < 50) return best;
+  take_off_numbers(rows, unseen);
   for (const Where axis : {Where::position, Where::velocity, Where::reversal}) {
     Learned table = learn(rows, axis);
     judge(table, unseen);

@@ -1,11 +1,14 @@
 #include "tools/diagnose/structure.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include "tools/diagnose/taken_up.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -30,12 +33,7 @@ bool of_force(const Equation& equation) {
 void add_moments(const InverseModel& model, const Segment& segment, std::vector<Moment>& all, std::vector<Index>& rows) {
   const Track& track = model.tracks()[segment.run];
   const Index step = std::max<Index>(1, std::lround(past_step_s / track.sample_s));
-  const auto acceleration = [&](Index k) {  // over two steps about k
-    const Index a = std::clamp<Index>(k - step / 2, 0, track.size - 1),
-                b = std::clamp<Index>(k + step / 2, 0, track.size - 1);
-    return b > a ? (track.centred_m_per_s[b] - track.centred_m_per_s[a]) / (static_cast<double>(b - a) * track.sample_s)
-                 : 0.0;
-  };
+  const auto acceleration = [&track](Index k) { return slow_acceleration_m_per_s2(track, k); };
   for (Index i = 0; i < segment.size; ++i) {
     if (!model.settled(segment.start + i)) continue;
     const Index k = model.sample_of(segment, i);
@@ -133,6 +131,9 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   }
   if (all.size() < least_rows) return;
   rows_ = regressors_of(all);
+  std::vector<double> accelerations, velocities;
+  for (const auto& m : all) accelerations.push_back(m.acceleration_m_per_s2), velocities.push_back(m.velocity_m_per_s);
+  numbers_ = columns_of_numbers(accelerations, velocities);
   members_.resize(folds);
   for (std::size_t k = 0; k < all.size(); ++k) members_[all[k].fold].push_back(static_cast<Index>(k));
   std::vector<Eigen::MatrixXd> normal;
@@ -209,6 +210,7 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
   Vector y = Vector::Zero(rows_.cols());
   for (std::size_t e = 0; e < model_.equations().size(); ++e)
     if (of_force(model_.equations()[e])) y += gathered(residual, e);
+  y -= numbers_ * numbers_.colPivHouseholderQr().solve(y);
   const double before = y.squaredNorm(), after = (y - unseen(y)).squaredNorm();
   found.remainder_N = std::sqrt(before / static_cast<double>(y.size()));
   found.share = before > 0.0 ? 1.0 - after / before : 0.0;

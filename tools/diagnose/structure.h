@@ -11,7 +11,7 @@
 namespace feedtwin::tools::diagnosis {
 
 struct Structure {
-  double remainder_N = 0.0;  ///< rms of the remainder where the axis has settled
+  double remainder_N = 0.0;  ///< rms of the remainder where the axis has settled, less what the numbers could still take up
   double share = 0.0;        ///< of its square that the additive model predicts on seconds it has not seen; may be negative
   [[nodiscard]] double structured_N() const;
 };
@@ -34,6 +34,7 @@ class RepeatableStructure {
   const InverseModel& model_;
   std::vector<std::vector<Index>> places_;   ///< settled rows of every run
   Eigen::MatrixXd rows_;                     ///< a column a settled row, runs in turn
+  Eigen::MatrixXd numbers_;                  ///< a row a settled row: what mass and friction could do
   std::vector<std::vector<Index>> members_;  ///< of each fold
   /// Some parts of the additive model.
   struct Way {

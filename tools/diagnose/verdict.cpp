@@ -24,7 +24,7 @@ const char* verdict_of(const Diagnosis& result) {
 
 bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                           const std::function<void(std::string_view)>& progress) {
-  constexpr double least_share = 0.15, least_N = 0.5, unexplained = 0.2;
+  constexpr double least_share = 0.1, least_N = 0.5, unexplained = 0.2;
   const auto& structure_of = fitter.structure();
   const Structure before = structure_of.remaining(found.recalibrated.residual);
   const Structure after = structure_of.remaining(fitter.model().residual(final.axis, final.effects));

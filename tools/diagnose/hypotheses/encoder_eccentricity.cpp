@@ -1,4 +1,4 @@
-// Eccentric encoder: it reads A sin(theta + phase) beyond the shaft's travel.
+// Eccentric encoder: it reads A sin(n theta + phase) beyond the shaft's travel; an oval one twice a revolution.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const Vector error = wave(track.position_m, view.axis.axis.lead_m, 1.0, q[0], q[1]);
+  const Vector error = wave(track.position_m, view.axis.axis.lead_m, q[2], q[0], q[1]);
   Vector acceleration = Vector::Zero(track.size);  // that is not there
   const Index n = track.size;
   acceleration.segment(1, n - 2) =
@@ -23,7 +23,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"amplitude_m", std::hypot(q[0], q[1])}, {"phase_rad", std::atan2(q[1], q[0])}};
+  return {{"amplitude_m", std::hypot(q[0], q[1])}, {"cycles_per_rev", q[2]}, {"phase_rad", std::atan2(q[1], q[0])}};
 }
 
 }  // namespace
@@ -33,11 +33,13 @@ Hypothesis encoder_eccentricity() {
           .component = "sensors",
           .channel = "position_m",
           .where = Where::order,
-          .parameters = {{"sine_m", Kind::amplitude, 1e-7}, {"cosine_m", Kind::amplitude, 1e-7}},
-          .shapes = {{}},
+          .parameters = {{"sine_m", Kind::amplitude, 1e-7},
+                         {"cosine_m", Kind::amplitude, 1e-7},
+                         {"cycles_per_rev", Kind::fixed, 1.0, 1.0, 100.0}},
+          .shapes = whole_orders(1, 2),
           .apply = apply,
           .named = named,
-          .sentence = "the encoder runs out of true: it reads {amplitude_m} m too far once a revolution",
+          .sentence = "the encoder runs out of true: it reads {amplitude_m} m too far, {cycles_per_rev} times a revolution",
 
           .confused_with = {"cyclic_lead_error", "rev_ripple"},
           .friction = false};
