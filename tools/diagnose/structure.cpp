@@ -62,12 +62,12 @@ void hats(double x, double low, double high, Index count, double weight, Eigen::
 }
 
 /// How many columns each part of the additive model has; the parts stand in this order.
-constexpr Index places = 40, speeds = 12, times = 8, pulls = 10, beats = 22, runs = 4;
-constexpr std::array widths{3 * places, 2 * speeds, 2 * times, 2 * pulls, Index{past_steps}, 2 * beats * runs};
-enum Part : unsigned { place = 1, speed = 2, reversal = 4, pull = 8, past = 16, beat = 32 };
+constexpr Index places = 40, speeds = 12, times = 8, pulls = 10;
+constexpr std::array widths{3 * places, 2 * speeds, 2 * times, 2 * pulls, Index{past_steps}};
+enum Part : unsigned { place = 1, speed = 2, reversal = 4, pull = 8, past = 16 };
 /// What is asked: a part that has nothing to say spoils what the others say on unseen folds.
-constexpr std::array<unsigned, 4> asked{place | speed | reversal | pull | past | beat,
-                                        place | speed | reversal | pull | past, place, speed | reversal | pull | past};
+constexpr std::array<unsigned, 5> asked{place | speed | reversal | pull | past, place, speed | reversal | pull | past,
+                                        pull | past, past};
 
 std::vector<Index> columns_of(unsigned parts) {
   std::vector<Index> columns;
@@ -103,12 +103,6 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
     both_ways(std::log(std::clamp(m.since_reversal_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
     both_ways(std::cbrt(m.acceleration_m_per_s2 / hardest), -1.0, 1.0, pulls);
     for (int j = 0; j < past_steps; ++j) row[from + j] = m.past[static_cast<std::size_t>(j)] / hardest;
-    from += past_steps + 2 * beats * static_cast<Index>(std::min<std::size_t>(m.run, runs - 1));
-    for (Index b = 0; b < beats; ++b) {
-      const double angle = 2.0 * std::numbers::pi * (0.5 + 0.14 * static_cast<double>(b)) * m.time_s;
-      row[from + 2 * b] = (forth ? 1.0 : -1.0) * std::sin(angle);
-      row[from + 2 * b + 1] = (forth ? 1.0 : -1.0) * std::cos(angle);
-    }
     rows.col(static_cast<Index>(k)) = row;
   }
   return rows;
@@ -131,6 +125,9 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   }
   if (all.size() < least_rows) return;
   rows_ = regressors_of(all);
+  std::vector<BeatMoment> times;
+  for (const auto& m : all) times.push_back({m.time_s, m.velocity_m_per_s > 0.0, m.run, m.fold});
+  beat_.emplace(times, folds);
   std::vector<double> accelerations, velocities;
   for (const auto& m : all) accelerations.push_back(m.acceleration_m_per_s2), velocities.push_back(m.velocity_m_per_s);
   numbers_ = columns_of_numbers(accelerations, velocities);
@@ -155,7 +152,7 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   }
 }
 
-Vector RepeatableStructure::unseen(const Vector& y) const {
+Vector RepeatableStructure::additive(const Vector& y) const {
   std::vector<Vector> right;
   for (const auto& own : members_) right.push_back(rows_(Eigen::all, own) * y(own));
   Vector best;
@@ -174,6 +171,14 @@ Vector RepeatableStructure::unseen(const Vector& y) const {
     if (error < least) least = error, best = std::move(predicted);
   }
   return best;
+}
+
+Vector RepeatableStructure::unseen(const Vector& y) const {
+  const Vector alone = additive(y), beats = beat_->unseen(y), beside = beats + additive(y - beats);
+  const Vector* best = &alone;
+  for (const Vector* other : {&beats, &beside})
+    if ((y - *other).squaredNorm() < (y - *best).squaredNorm()) best = other;
+  return *best;
 }
 
 Vector RepeatableStructure::gathered(const Vector& residual, std::size_t equation) const {

@@ -1,11 +1,13 @@
 #pragma once
 // Is what a model leaves over still structure? A general additive model of the force remainder - tables over place, speed,
-// time since reversal and acceleration, speed-weighted place, the acceleration's past, friction that beats - learned on
+// time since reversal and acceleration, speed-weighted place, the acceleration's past - and friction that beats, learned on
 // three quarters of the seconds and judged on the fourth, in turn.
 
 #include <Eigen/Cholesky>
+#include <optional>
 #include <vector>
 
+#include "tools/diagnose/beat.h"
 #include "tools/diagnose/inverse_model.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -29,6 +31,7 @@ class RepeatableStructure {
 
  private:
   [[nodiscard]] Vector unseen(const Vector& y) const;
+  [[nodiscard]] Vector additive(const Vector& y) const;
   [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
 
   const InverseModel& model_;
@@ -42,6 +45,7 @@ class RepeatableStructure {
     std::vector<Eigen::LDLT<Eigen::MatrixXd>> solvers;  ///< from the other folds
   };
   std::vector<Way> ways_;
+  std::optional<Beat> beat_;
 };
 
 }  // namespace feedtwin::tools::diagnosis

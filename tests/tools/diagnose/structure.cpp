@@ -11,6 +11,7 @@
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/lines.h"
+#include "tools/diagnose/taken_up.h"
 
 namespace feedtwin {
 namespace {
@@ -63,6 +64,26 @@ TEST_F(Runs, ASpringAndABumpArePredictedWhereTheyWereNotSeen) {
   });
   EXPECT_LT(settled_norm(spring - structure.part_of(spring)), 0.35 * settled_norm(spring));
   EXPECT_LT(settled_norm(bump - structure.part_of(bump)), 0.5 * settled_norm(bump));
+}
+
+TEST_F(Runs, ABeatIsFoundBelowTheNoiseWithItsPhaseInEachRun) {
+  const RepeatableStructure structure(model);
+  const Vector beat = rows_of([](const Track& t, Index k) {
+    const double angle = 2.0 * std::numbers::pi * 0.71 * static_cast<double>(k) * t.sample_s + static_cast<double>(t.run);
+    return (t.centred_m_per_s[k] > 0.0 ? 1.0 : -1.0) * std::sin(angle);
+  });
+  EXPECT_LT(settled_norm(beat - structure.part_of(beat)), 0.2 * settled_norm(beat));
+  EXPECT_GT(structure.remaining(noise() + beat).share, 0.25);
+}
+
+TEST_F(Runs, WhatMassAndFrictionCouldTakeUpIsNoStructure) {
+  const RepeatableStructure structure(model);
+  const Vector mass_and_friction = rows_of([](const Track& t, Index k) {
+    const double v = t.centred_m_per_s[k];
+    return 2.0 * slow_acceleration_m_per_s2(t, k) + 30.0 * v + (v > 0.0 ? 1.0 : -0.4);
+  });
+  EXPECT_LT(structure.remaining(noise() + mass_and_friction).share, 0.05);
+  EXPECT_NEAR(structure.remaining(mass_and_friction).remainder_N, 0.0, 0.05);
 }
 
 TEST_F(Runs, LinesAreFoundWithTheirPhaseAndNoneInNoise) {
