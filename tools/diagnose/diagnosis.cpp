@@ -113,8 +113,9 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   const double inflation = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
   Eigen::MatrixXd covariance = inflation * robust_covariance(model, fit);
   // a name that every unseen fold bears out stays, whatever else is left over
-  const bool certain = std::ranges::any_of(
-      found.found, [](const Found& one) { return one.held_everywhere && rests_on_force(*one.effect.hypothesis); });
+  const bool certain = std::ranges::any_of(found.found, [](const Found& one) {
+    return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
+  });
   const bool unknown = beyond_the_catalogue(fitter, found, fit.model, progress) && !certain;
   const Fit by_inverse_model = fit;
   progress("polishing the numbers by closed-loop simulation");

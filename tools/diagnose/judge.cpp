@@ -61,8 +61,9 @@ LeftOut left_out(const InverseModel& model, const Fit& fit, const std::vector<st
 
 }  // namespace
 
-double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals, const Bar& bar) {
-  double strongest = 0.0;
+std::vector<double> strengths(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
+                              const Bar& bar) {
+  std::vector<double> by_equation;
   for (std::size_t e = 0; e < model.equations().size(); ++e) {
     const auto& equation = model.equations()[e];
     double moved = 0.0, left = 0.0, count = 0.0;
@@ -73,11 +74,14 @@ double strength(const InverseModel& model, const Fit& with, const Fit& without, 
         left += with.residual[k] * with.residual[k];
         count += 1.0;
       }
-    if (count == 0.0) continue;
     const double floor = equation.slip ? bar.slip_m : equation.power ? bar.power_W : bar.force_N;
-    strongest = std::max(strongest, std::sqrt(moved / count) / std::max(floor, std::sqrt(left / count)));
+    by_equation.push_back(count > 0.0 ? std::sqrt(moved / count) / std::max(floor, std::sqrt(left / count)) : 0.0);
   }
-  return strongest;
+  return by_equation;
+}
+
+double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals, const Bar& bar) {
+  return std::ranges::max(strengths(model, with, without, about_reversals, bar));
 }
 
 std::vector<double> gains_by_fold(const InverseModel& model, const Fit& with, const Fit& without, std::size_t folds) {

@@ -6,8 +6,12 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// How much the fits differ, rms, over the rms of what the better one leaves over: the largest of the equations that the
-/// difference touches. Force equations count where the axis has settled, and about reversals too where these are asked for.
+/// How much the fits differ, rms, over the rms of what the better one leaves over, for each equation. Force equations count
+/// where the axis has settled, and about reversals too where these are asked for.
+[[nodiscard]] std::vector<double> strengths(const InverseModel& model, const Fit& with, const Fit& without,
+                                            bool about_reversals, const Bar& bar);
+
+/// The largest of them.
 [[nodiscard]] double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
                               const Bar& bar);
 

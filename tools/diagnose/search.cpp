@@ -234,6 +234,19 @@ class Search {
     std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
   }
 
+  /// Where an effect shows most, the strength of the strongest other one: what its model leaves over is there too.
+  /// @param less the fits without each
+  [[nodiscard]] double largest_beside(const std::vector<Fit>& less, std::size_t effect) const {
+    const auto own =
+        strengths(fitter_.model(), fit_, less[effect], fit_.model.effects[effect].hypothesis->about_reversals, bar_);
+    const auto equation = static_cast<std::size_t>(std::ranges::max_element(own) - own.begin());
+    double largest = 0.0;
+    for (std::size_t other = 0; other < less.size(); ++other)
+      if (other != effect && worth_naming(fit_.model.effects[other]))
+        largest = std::max(largest, strengths(fitter_.model(), fit_, less[other], false, bar_)[equation]);
+    return largest;
+  }
+
   /// False when an effect was taken out or exchanged, so that all must be asked again.
   bool settled(SearchResult& result) {
     const std::size_t count = fit_.model.effects.size();
@@ -250,10 +263,7 @@ class Search {
     for (const std::size_t i : weakest_first) {
       const Active& effect = fit_.model.effects[i];
       const auto& verdict = verdicts[i];
-      double largest = 0.0;
-      for (std::size_t other = 0; other < count; ++other)
-        if (other != i && worth_naming(fit_.model.effects[other]))
-          largest = std::max(largest, strength(fitter_.model(), fit_, less[other], false, bar_));
+      const double largest = largest_beside(less, i);
       const auto gains = gains_by_fold(fitter_.model(), fit_, less[i], bar_.folds);
       // one fold may hold all that a shape parameter is known from: it must not outvote the others
       const double most_lost = -verdict.gain / static_cast<double>(bar_.folds);

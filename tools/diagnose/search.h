@@ -23,8 +23,9 @@ struct Bar {
   double number_gain = 150.0;  ///< the same where the numbers would have to be so far off that next to nothing is left over
   double against_nominal = 8.0;   ///< rise of the nominal numbers' squared deviations that makes an absorbed one doubtful
   double strength_against = 0.6;  ///< least strength then
-  double beside = 0.05;           ///< least strength beside another effect, of that one's: models of effects are not perfect
-  std::size_t folds = 8;          ///< stretches of a second, dealt out in turn
+  double beside =
+      0.05;  ///< least strength beside another effect, of that one's in the equation: models of effects are not perfect
+  std::size_t folds = 8;  ///< stretches of a second, dealt out in turn
   std::size_t folds_that_gain = 3;
   std::size_t most_effects = 6;
 };

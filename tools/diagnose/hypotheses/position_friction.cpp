@@ -19,7 +19,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return std::abs(q[0]) > 0.03;
+  return std::abs(q[0]) > 0.005;
 }
 
 }  // namespace

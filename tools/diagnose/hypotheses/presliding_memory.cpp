@@ -37,9 +37,10 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 0.0;
 }
 
-/// Below it is how one bristle simplifies any real contact of this axis (screw and guide: 75 N).
+/// Below it is how one bristle simplifies any real contact of this axis (screw and guide: 75 N); and over what a bristle
+/// itself yields (F_C / sigma0: 1.5 um) it is no more than the bristle's own stiffness.
 bool finding(std::span<const double> q) {
-  return q[0] > 60.0;
+  return q[0] > 60.0 && q[1] > 3e-6;
 }
 
 }  // namespace
