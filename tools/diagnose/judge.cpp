@@ -59,6 +59,10 @@ LeftOut left_out(const InverseModel& model, const Fit& fit, const std::vector<st
   return out;
 }
 
+double prior_part(const Fit& fit) {
+  return fit.white.tail(fit.base_count()).squaredNorm();
+}
+
 }  // namespace
 
 std::vector<double> strengths(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
@@ -82,6 +86,21 @@ std::vector<double> strengths(const InverseModel& model, const Fit& with, const 
 
 double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals, const Bar& bar) {
   return std::ranges::max(strengths(model, with, without, about_reversals, bar));
+}
+
+Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const Hypothesis& hypothesis, const Bar& bar) {
+  Verdict v;
+  v.gain = without.cost - with.cost;
+  v.surprise = prior_part(without) - prior_part(with);
+  v.strength = strength(fitter.model(), with, without, hypothesis.about_reversals, bar);
+  const double needed = bar.gain + bar.per_parameter * static_cast<double>(freedom(hypothesis) - 1);
+  const bool doubtful = hypothesis.absorbed && v.surprise < -bar.against_nominal;
+  const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
+  const bool strong = v.strength > least && v.gain > needed;
+  const bool impossible_otherwise = hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
+                                    (v.strength > bar.absorbed_strength || v.surprise > bar.number_gain);
+  v.enough = strong || impossible_otherwise;
+  return v;
 }
 
 std::vector<double> gains_by_fold(const InverseModel& model, const Fit& with, const Fit& without, std::size_t folds) {

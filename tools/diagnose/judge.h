@@ -15,6 +15,15 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
                               const Bar& bar);
 
+/// Is what an effect does, against a fit that does without it, enough to name it?
+struct Verdict {
+  double gain = 0.0, surprise = 0.0, strength = 0.0;
+  bool enough = false;
+};
+
+[[nodiscard]] Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
+                             const Bar& bar);
+
 /// Fall of the cost of each fold that the other folds' estimate of everything brings, with the effect against without.
 /// Both fits under the same whitening.
 [[nodiscard]] std::vector<double> gains_by_fold(const InverseModel& model, const Fit& with, const Fit& without,

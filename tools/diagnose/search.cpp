@@ -16,31 +16,6 @@ namespace {
 constexpr int rounds = 3, iterations = 6;
 constexpr std::size_t refitted = 4, rivals_tried = 4;
 
-double prior_part(const Fit& fit) {
-  return fit.white.tail(fit.base_count()).squaredNorm();
-}
-
-/// Is what an effect does, against a fit that does without it, enough to name it?
-struct Verdict {
-  double gain = 0.0, surprise = 0.0, strength = 0.0;
-  bool enough = false;
-};
-
-Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const Hypothesis& hypothesis, const Bar& bar) {
-  Verdict v;
-  v.gain = without.cost - with.cost;
-  v.surprise = prior_part(without) - prior_part(with);
-  v.strength = strength(fitter.model(), with, without, hypothesis.about_reversals, bar);
-  const double needed = bar.gain + bar.per_parameter * static_cast<double>(freedom(hypothesis) - 1);
-  const bool doubtful = hypothesis.absorbed && v.surprise < -bar.against_nominal;
-  const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
-  const bool strong = v.strength > least && v.gain > needed;
-  const bool impossible_otherwise = hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
-                                    (v.strength > bar.absorbed_strength || v.surprise > bar.number_gain);
-  v.enough = strong || impossible_otherwise;
-  return v;
-}
-
 /// "cogging 0.9 of the residual's rms (p 1e-06), ..." for whoever waits.
 std::string best_of(const Screen& screened) {
   std::string text;

@@ -125,9 +125,9 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   }
   if (all.size() < least_rows) return;
   rows_ = regressors_of(all);
-  std::vector<BeatMoment> times;
-  for (const auto& m : all) times.push_back({m.time_s, m.velocity_m_per_s > 0.0, m.run, m.fold});
-  beat_.emplace(times, folds);
+  std::vector<BeatMoment> beats;
+  for (const auto& m : all) beats.push_back({m.time_s, m.velocity_m_per_s > 0.0, m.run, m.fold});
+  beat_.emplace(beats, folds);
   std::vector<double> accelerations, velocities;
   for (const auto& m : all) accelerations.push_back(m.acceleration_m_per_s2), velocities.push_back(m.velocity_m_per_s);
   numbers_ = columns_of_numbers(accelerations, velocities);

@@ -1,0 +1,52 @@
+// What a hypothesis is worth: in which equation, and from how far a fit arrives.
+
+#include "tools/diagnose/judge.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/made_case.h"
+#include "tools/diagnose/hypotheses/shapes.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+struct Judged : testing::Test {
+  plant::AxisParameters axis = plant::source_axis();
+  InverseModel model{
+      make_tracks({tests::make_recording(axis, {.motion = "sine", .duration_s = 4.0, .force_noise_N = 0.05})}, axis), axis};
+  Fitter fitter{model, axis};
+};
+
+TEST_F(Judged, AnEffectIsStrongInTheEquationsThatItMovesAndInNoOther) {
+  Fit with, without;
+  with.residual = Vector::Constant(model.rows(), 1.0);
+  for (std::size_t e = 0; e < model.equations().size(); ++e) {
+    without.residual = with.residual;
+    for (const auto& s : model.segments())
+      if (s.equation == e) without.residual.segment(s.start, s.size).array() += 2.0;
+    const auto found = strengths(model, with, without, true, Bar{});
+    for (std::size_t other = 0; other < found.size(); ++other) EXPECT_NEAR(found[other], other == e ? 2.0 : 0.0, 1e-12);
+    EXPECT_EQ(strength(model, with, without, true, Bar{}), found[e]);
+  }
+  EXPECT_GT(model.equations().size(), 1U);
+}
+
+TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
+  const Whitening whitening = Whitening::estimate(model, model.residual(axis, {}));
+  Candidate start{axis, {}};
+  start.axis.motor.inertia_kgm2 *= 8.0;  // a step is two fifths of the value at most: two of them do not arrive
+  const Fit fit = fitter.fit(start, whitening, 2);
+  EXPECT_NEAR(fit.model.axis.motor.inertia_kgm2, axis.motor.inertia_kgm2, 0.01 * axis.motor.inertia_kgm2);
+}
+
+TEST(Lines, ARunThatIsNotThereHasNoPartInTheAmplitude) {
+  const std::vector<double> q{3.0, 4.0, -5.0, 0.0, 0.0, 0.0, 0.03, 0.0, 50.0};  // the last run: a step of differences
+  EXPECT_TRUE(has_line(q, 0) && has_line(q, 1));
+  EXPECT_FALSE(has_line(q, 2) || has_line(q, 3));
+  EXPECT_DOUBLE_EQ(line_amplitude(q), 5.0);
+}
+
+}  // namespace
+}  // namespace feedtwin
