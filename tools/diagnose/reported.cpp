@@ -10,6 +10,9 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double z90 = 1.645;
+/// Friction's laws are never quite the machine's, and that is in no residual's scatter: of 174 numbers in made cases (two
+/// sets that were looked at before) intervals of 90 % by the scatter alone held 0.75, twice as wide ones 0.86.
+constexpr double for_the_laws = 2.0;
 
 /// Where in the list of unknowns an effect's working parameters stand; -1 for those that are not fitted.
 std::vector<Index> places_of(const Fit& fit, std::size_t effect) {
@@ -63,7 +66,8 @@ std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Ei
     }
     const double sigma = std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
     if (sigma > 1e3 * (std::abs(now[i].value) + 1e-9)) continue;  // of a channel that is not there
-    out.push_back({now[i].name, {now[i].value, now[i].value - z90 * sigma, now[i].value + z90 * sigma}});
+    const double half = for_the_laws * z90 * sigma;
+    out.push_back({now[i].name, {now[i].value, now[i].value - half, now[i].value + half}});
   }
   return out;
 }
