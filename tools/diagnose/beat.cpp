@@ -23,11 +23,16 @@ struct Sums {
   void add(const Sums& other, double sign) {
     ss += sign * other.ss, sc += sign * other.sc, cc += sign * other.cc, sy += sign * other.sy, cy += sign * other.cy;
   }
-  [[nodiscard]] Eigen::ArrayXd determinant() const { return (ss + said_zero) * (cc + said_zero) - sc * sc; }
-  [[nodiscard]] Eigen::ArrayXd sine() const { return ((cc + said_zero) * sy - sc * cy) / determinant(); }
-  [[nodiscard]] Eigen::ArrayXd cosine() const { return ((ss + said_zero) * cy - sc * sy) / determinant(); }
-  /// Fall of the squares.
-  [[nodiscard]] Eigen::ArrayXd gain() const { return sine() * sy + cosine() * cy; }
+  /// Fall of the squares that sine and cosine bring at each frequency.
+  [[nodiscard]] Eigen::ArrayXd gain() const {
+    const Eigen::ArrayXd s = ss + said_zero, c = cc + said_zero;
+    return (c * sy * sy - 2.0 * sc * sy * cy + s * cy * cy) / (s * c - sc * sc);
+  }
+  /// Amplitudes of sine and cosine at one.
+  [[nodiscard]] std::pair<double, double> at(Index i) const {
+    const double s = ss[i] + said_zero, c = cc[i] + said_zero, determinant = s * c - sc[i] * sc[i];
+    return {(c * sy[i] - sc[i] * cy[i]) / determinant, (s * cy[i] - sc[i] * sy[i]) / determinant};
+  }
 };
 
 }  // namespace
@@ -66,7 +71,7 @@ Vector Beat::unseen(const Vector& y) const {
     Index best = 0;
     gain.maxCoeff(&best);
     std::vector<std::pair<double, double>> phases;  // sine and cosine of each run
-    for (const auto& run : others) phases.emplace_back(run.sine()[best], run.cosine()[best]);
+    for (const auto& run : others) phases.push_back(run.at(best));
     for (std::size_t k = 0; k < moments_.size(); ++k) {
       if (moments_[k].fold != f) continue;
       const auto column = static_cast<Index>(k);

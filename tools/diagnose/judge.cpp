@@ -98,7 +98,7 @@ Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const 
   const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
   const bool strong = v.strength > least && v.gain > needed;
   const bool impossible_otherwise = hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
-                                    (v.strength > bar.absorbed_strength || v.surprise > bar.number_gain);
+                                    (v.strength > bar.absorbed_strength || v.surprise > bar.sure_surprise);
   v.enough = strong || impossible_otherwise;
   return v;
 }

@@ -210,15 +210,15 @@ class Search {
   }
 
   /// Where an effect shows most, the strength of the strongest other one: what its model leaves over is there too.
-  /// @param less the fits without each
-  [[nodiscard]] double largest_beside(const std::vector<Fit>& less, std::size_t effect) const {
-    const auto own =
-        strengths(fitter_.model(), fit_, less[effect], fit_.model.effects[effect].hypothesis->about_reversals, bar_);
+  /// @param without the fit without it; @param settled of each effect, by equation, where the axis has settled
+  [[nodiscard]] double largest_beside(std::size_t effect, const Fit& without,
+                                      const std::vector<std::vector<double>>& settled) const {
+    const bool about_reversals = fit_.model.effects[effect].hypothesis->about_reversals;
+    const auto own = strengths(fitter_.model(), fit_, without, about_reversals, bar_);
     const auto equation = static_cast<std::size_t>(std::ranges::max_element(own) - own.begin());
     double largest = 0.0;
-    for (std::size_t other = 0; other < less.size(); ++other)
-      if (other != effect && worth_naming(fit_.model.effects[other]))
-        largest = std::max(largest, strengths(fitter_.model(), fit_, less[other], false, bar_)[equation]);
+    for (std::size_t other = 0; other < settled.size(); ++other)
+      if (other != effect && worth_naming(fit_.model.effects[other])) largest = std::max(largest, settled[other][equation]);
     return largest;
   }
 
@@ -227,10 +227,12 @@ class Search {
     const std::size_t count = fit_.model.effects.size();
     std::vector<Fit> less;
     std::vector<Verdict> verdicts;
+    std::vector<std::vector<double>> strong;  // by equation
     std::vector<bool> everywhere(count);
     for (std::size_t i = 0; i < count; ++i) {
       less.push_back(fitter_.fit(without(fit_.model, i), whitening_, iterations));
       verdicts.push_back(judged(fitter_, fit_, less[i], *fit_.model.effects[i].hypothesis, bar_));
+      strong.push_back(strengths(fitter_.model(), fit_, less[i], false, bar_));
     }
     std::vector<std::size_t> weakest_first(count);
     std::iota(weakest_first.begin(), weakest_first.end(), 0U);
@@ -238,7 +240,7 @@ class Search {
     for (const std::size_t i : weakest_first) {
       const Active& effect = fit_.model.effects[i];
       const auto& verdict = verdicts[i];
-      const double largest = largest_beside(less, i);
+      const double largest = largest_beside(i, less[i], strong);
       const auto gains = gains_by_fold(fitter_.model(), fit_, less[i], bar_.folds);
       // one fold may hold all that a shape parameter is known from: it must not outvote the others
       const double most_lost = -verdict.gain / static_cast<double>(bar_.folds);

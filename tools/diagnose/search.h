@@ -20,11 +20,11 @@ struct Bar {
   double slip_m = 5e-8, power_W = 0.03;
   double absorbed_gain = 25.0;  ///< of what the nominal numbers can nearly do: fall of the cost with their deviations
   double absorbed_strength = 0.15;
-  double number_gain = 150.0;  ///< the same where the numbers would have to be so far off that next to nothing is left over
+  double sure_surprise = 150.0;   ///< the numbers would have to be so far off that it may leave next to nothing over
   double against_nominal = 8.0;   ///< rise of the nominal numbers' squared deviations that makes an absorbed one doubtful
   double strength_against = 0.6;  ///< least strength then
-  double beside =
-      0.05;  ///< least strength beside another effect, of that one's in the equation: models of effects are not perfect
+  /// Least strength beside another effect, of that one's in the same equation: models of effects are not perfect.
+  double beside = 0.05;
   std::size_t folds = 8;  ///< stretches of a second, dealt out in turn
   std::size_t folds_that_gain = 3;
   std::size_t most_effects = 6;

@@ -43,6 +43,25 @@ const FittedParameter& named(const OutputErrorFit& fit, std::string_view key) {
   return *std::ranges::find_if(fit.parameters, [key](const auto& p) { return p.parameter.key == key; });
 }
 
+TEST(OutputError, AnUnknownAtItsBoundButForRoundingHasAnInterval) {
+  const Case made = short_case(3, 0.0);
+  std::vector<ClosedLoopRun> runs;
+  for (const auto& recording : made.fit) runs.emplace_back(recording, made.axis, made.controller);
+  auto unknowns = axis_unknowns(made.axis, made.fit);
+  auto& inertia = *std::ranges::find(unknowns, "motor.inertia_kgm2", [](const auto& p) { return p.key; });
+  OutputErrorSettings settings;
+  settings.most_iterations = 0;
+  settings.encoder_grids = 0;
+  const auto deviation = [&] {
+    const auto simulate = lane_simulator(made.axis, unknowns);
+    return named(fit_output_error(runs, unknowns, simulate, settings), "motor.inertia_kgm2").deviation;
+  };
+  const double free = deviation();
+  inertia.lowest = std::nextafter(inertia.nominal, 0.0);
+  EXPECT_GT(deviation(), 0.5 * free);
+  EXPECT_LT(deviation(), 2.0 * free);
+}
+
 TEST(OutputError, FindsTheAxisThatMadeTheRecordings) {
   const auto [unknowns, fit] = fit_of(short_case(3, 0.1));
   EXPECT_TRUE(fit.converged);
