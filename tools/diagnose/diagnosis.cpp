@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/command_jump.h"
 #include "tools/diagnose/forward/arbiter.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
@@ -98,7 +99,11 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   result.setup = mend_setup(data);
   for (const auto& fault : result.setup) progress(fault.sentence);
   progress("following friction along " + std::to_string(data.fit.size()) + " runs");
-  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  auto tracks = make_tracks(data.fit, data.axis);
+  const double jump_share = force_jump_share(tracks, data.axis);
+  if (jump_share < 1.0) progress("the screw yields: the force sensor does not show the command's jumps at once");
+  for (auto& track : tracks) track.force_jump_share = jump_share;
+  const InverseModel model(std::move(tracks), data.axis);
   for (auto& fault : check_meter(model.tracks().front(), data.axis)) result.setup.push_back(std::move(fault));
   const Fitter fitter(model, data.axis);
   SearchResult found = search(fitter, Bar{}, progress);
@@ -151,7 +156,9 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
 
   progress("figures on what the fit did not see");
   const Candidate nominal{data.axis, {}};
-  const InverseModel held_out(make_tracks(unseen, data.axis), data.axis);
+  tracks = make_tracks(unseen, data.axis);
+  for (auto& track : tracks) track.force_jump_share = jump_share;
+  const InverseModel held_out(std::move(tracks), data.axis);
   Candidate told = fit.model;
   if (unknown) told = only_what_the_force_does_not_show(result, found, fit.model);
   const Learned learned = learn_remainder(model, held_out, told);

@@ -174,7 +174,8 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   Vector step_N = track.half_step_N;
   if (extra.drive_step_N.size() > 0 && step_N.size() > 0) step_N += extra.drive_step_N;
   if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * step_N;
-  if (equation.screw != equation.guide) r += (equation.screw ? 1.0 : -1.0) * table_kg * per_mass * step_N;
+  if (equation.screw != equation.guide)
+    r += (equation.screw ? 1.0 : -1.0) * track.force_jump_share * table_kg * per_mass * step_N;
   double mass = 0.0, nominal_mass = 0.0;
   if (equation.screw) {
     mass += screw_kg;

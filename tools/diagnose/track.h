@@ -50,7 +50,8 @@ struct Track {
   Vector dwell_s;           ///< length of the last standstill, from its end on
   /// Command that sets in at the sample beyond its mean about it: the sensors read with it, the balance without.
   Vector half_step_N;
-  Vector torque_sensor_N;  ///< empty where not recorded; likewise below
+  double force_jump_share = 1.0;  ///< of that jump, as one body would show it to the force sensor
+  Vector torque_sensor_N;         ///< empty where not recorded; likewise below
   Vector force_sensor_N;
   Vector slip_m;  ///< linear scale less motor encoder
   MeterWindows meter;

@@ -1,5 +1,6 @@
 // A damaged spot: more friction about one place of the guide.
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/diagnose/hypotheses/registry.h"
@@ -17,8 +18,23 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"height_N", q[0]}, {"centre_m", q[1]}, {"half_width_m", q[2]}};
 }
 
-bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.0;
+/// Wider is friction that varies along the stroke.
+bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
+  return q[0] > 0.0 && q[2] < 0.2 * axis.axis.stroke_m;
+}
+
+/// All along the recorded travel, narrow, wider, and a twelfth of it wide.
+Grid places_of(const std::vector<Track>& runs) {
+  double low_m = 1e300, high_m = -1e300;
+  for (const auto& run : runs) {
+    low_m = std::min(low_m, run.position_m.minCoeff());
+    high_m = std::max(high_m, run.position_m.maxCoeff());
+  }
+  const double travel_m = high_m - low_m, narrow_m = std::max(0.002, travel_m / 150.0);
+  Grid grid;
+  for (const double width_m : {narrow_m, 3.0 * narrow_m, travel_m / 12.0})
+    for (int i = 0; i * width_m < travel_m; ++i) grid.push_back({low_m + i * width_m, width_m});
+  return grid;
 }
 
 }  // namespace
@@ -30,8 +46,8 @@ Hypothesis local_friction() {
           .where = Where::position,
           .parameters = {{"force_N", Kind::amplitude, 0.1},
                          {"position_m", Kind::shape, 1e-4, -10.0, 10.0},
-                         {"half_width_m", Kind::shape, 1e-4, 2e-4, 0.008}},
-          .shapes = spots(),
+                         {"half_width_m", Kind::shape, 1e-4, 2e-4, 0.2}},
+          .shapes = {},
           .apply = apply,
           .named = named,
           .admissible = possible,
@@ -39,6 +55,7 @@ Hypothesis local_friction() {
 
           .least_strength = 0.25,
           .confused_with = {"position_friction"},
+          .shapes_for = places_of,
           .friction = false};
 }
 

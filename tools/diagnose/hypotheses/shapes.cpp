@@ -107,12 +107,4 @@ Grid torque_limits() {
   return grid;
 }
 
-Grid spots() {
-  Grid grid;
-  for (const double width : {0.002, 0.006})
-    for (double at = -0.075; at <= 0.0751; at += width)  // NOLINT(bugprone-float-loop-counter): the last is inside by 0.1 mm
-      grid.push_back({at, width});
-  return grid;
-}
-
 }  // namespace feedtwin::tools::diagnosis

@@ -34,6 +34,5 @@ using Grid = std::vector<std::vector<double>>;
 [[nodiscard]] Grid ripple_orders();  ///< one and two a revolution, and everything between that is not whole
 [[nodiscard]] Grid frequencies(double low_Hz, double high_Hz);
 [[nodiscard]] Grid torque_limits();
-[[nodiscard]] Grid spots();  ///< places along a stroke and widths
 
 }  // namespace feedtwin::tools::diagnosis
