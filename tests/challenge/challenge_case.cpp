@@ -90,11 +90,26 @@ Gains draw_gains(Random& random) {
           .acceleration_feedforward_kg = 0.0};
 }
 
+/// Where floor and process are as each run begins: a third of the cases start with them, a third whenever it comes, but all
+/// runs alike, a third each run as it comes.
+std::vector<double> draw_phases(std::size_t runs, Random random) {
+  const double kind = uniform(random, 0.0, 3.0);
+  std::vector<double> phases_rad(runs, kind < 1.0 ? 0.0 : uniform(random, -3.14, 3.14));
+  for (double& phase_rad : phases_rad)
+    if (kind >= 2.0) phase_rad = uniform(random, -3.14, 3.14);
+  return phases_rad;
+}
+
+Effects in_run(const Case& c, Effects effects, std::size_t run) {
+  effects.line_phase_rad = c.line_phases_rad[run];
+  return effects;
+}
+
 std::vector<Run> runs_of(const Case& c, const std::vector<MotionPlan>& plans, const Effects& effects, const Axis& truth,
                          const Gains& gains, std::uint64_t seed) {
   std::vector<Run> runs;
   for (std::size_t i = 0; i < plans.size(); ++i)
-    runs.push_back(record(truth, effects, c.noise, gains, plans[i], seed * 101 + i));
+    runs.push_back(record(truth, in_run(c, effects, i), c.noise, gains, plans[i], seed * 101 + i));
   return runs;
 }
 
@@ -139,6 +154,7 @@ Case make_case(const Wish& wish) {
                                                 : std::vector<std::string>{"stair", "sine", "multi", "tri"};
   std::vector<MotionPlan> plans;
   for (const auto& kind : kinds) plans.push_back(draw_motion(kind, random));
+  c.line_phases_rad = draw_phases(plans.size(), Random(wish.seed * 0x9E3779B97F4A7C15ULL + 78));
 
   const std::uint64_t shape = random();
   const auto bare = runs_of(c, plans, {}, c.truth, gains, wish.seed);
@@ -193,7 +209,7 @@ Case make_case(const Wish& wish) {
   const std::uint64_t noise_of_last = wish.seed * 101 + plans.size() - 1;
   const Run without_effects =
       has("screw_compliance") ? record(plain, {}, c.noise, gains, plans.back(), noise_of_last) : bare.back();
-  const Run again = record_again(c.truth, c.effects, c.noise, gains, plans.back(), wish.seed);
+  const Run again = record_again(c.truth, in_run(c, c.effects, plans.size() - 1), c.noise, gains, plans.back(), wish.seed);
   c.floors = floors_of(runs.back(), again, without_effects, c.channels);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const bool last = i + 1 == runs.size();

@@ -33,6 +33,7 @@ struct Case {
   unsigned channels = all_channels;
   std::vector<NamedRun> fit, holdout;
   double wrong_by = 0.0;                    ///< spread of the nominal numbers
+  std::vector<double> line_phases_rad;      ///< of each run
   bool masked = false;                      ///< nominal numbers were refitted to data that hold the effect
   double residual_N = 0.0, effect_N = 0.0;  ///< leftover without the effects, and what they add
   std::vector<ChannelFloor> floors;         ///< of the held-out run

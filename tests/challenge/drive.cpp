@@ -132,8 +132,8 @@ Drive::Loads Drive::loads(const State& y, State* dy, double t) const {
   // table
   l.table_N = guide_N + e_.gravity_N + e_.cable_N_per_m * (xt - e_.cable_neutral_m) +
               e_.drag_Ns2_per_m2 * vt * std::abs(vt) + e_.process_mean_N +
-              e_.process_N * std::sin(two_pi * e_.process_Hz * t) +
-              l.table_kg * e_.floor_m_per_s2 * std::sin(two_pi * e_.floor_Hz * t);
+              e_.process_N * std::sin(two_pi * e_.process_Hz * t + e_.line_phase_rad) +
+              l.table_kg * e_.floor_m_per_s2 * std::sin(two_pi * e_.floor_Hz * t + e_.line_phase_rad);
   const double depth = xt - e_.stop_m;
   if (e_.stop_N_per_m > 0.0 && depth > 0.0) l.table_N += std::max(0.0, e_.stop_N_per_m * depth + e_.stop_Ns_per_m * vt);
   if (e_.slosh_kg > 0.0) {

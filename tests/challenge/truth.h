@@ -56,6 +56,7 @@ struct Effects {
   double current_loop_s = 0.0, input_delay_s = 0.0, saturation_Nm = 1e9, torque_gain = 0.0, torque_offset_Nm = 0.0;
   double hidden_Nm = 0.0, hidden_m_per_s = 1e-3;
   double payload_kg = 0.0, gravity_N = 0.0, drag_Ns2_per_m2 = 0.0;
+  double line_phase_rad = 0.0;  ///< of floor and process where a run begins
   double floor_m_per_s2 = 0.0, floor_Hz = 20.0;
   double process_mean_N = 0.0, process_N = 0.0, process_Hz = 100.0;
   double stop_N_per_m = 0.0, stop_m = 1.0, stop_Ns_per_m = 1e4;

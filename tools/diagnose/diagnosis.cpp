@@ -14,6 +14,7 @@
 #include "tools/diagnose/forward/sizes.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
+#include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/sentence.h"
 #include "tools/diagnose/verdict.h"
@@ -42,9 +43,9 @@ void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchRes
 
 /// Which axis's closed loop comes closest to the runs of the fit, all channels alike; the first where none is clearly
 /// closer.
-std::size_t closest(const ForwardModel& forward, const std::vector<plant::AxisParameters>& axes) {
+std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& axes) {
   constexpr double clearly = 0.01;
-  const auto far_off = [&forward](const plant::AxisParameters& axis) {
+  const auto far_off = [&forward](const AxisByRun& axis) {
     double sum = 0.0;
     const Nrmse all = forward.nrmse(axis);
     for (const auto& [channel, error] : all) sum += std::log(std::max(1e-12, error));
@@ -147,9 +148,9 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
       result.effects.push_back(named_effect(one, fit, covariance, model));
   }
   result.recalibrated = recalibrated(fitter, fit, covariance);
-  std::vector<plant::AxisParameters> ways{extended(fit.model, worth_naming), extended(fit.model)};
+  std::vector<AxisByRun> ways{extended(fit.model, worth_naming), extended(fit.model)};
   if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model)), ways.push_back(data.axis);
-  result.updated = ways[closest(forward, ways)];
+  result.updated = ways[closest(forward, ways)].common;
   if (!anything_missing(result)) result.suspects = suspects(fitter, found, by_inverse_model, Bar{}, progress);
   result.verdict = verdict_of(result);
   result.detection_limit_N = 0.2 * std::max(Bar{}.force_N, found.whitening.residual_rms(0));
@@ -161,7 +162,8 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   const InverseModel held_out(std::move(tracks), data.axis);
   Candidate told = fit.model;
   if (unknown) told = only_what_the_force_does_not_show(result, found, fit.model);
-  const Learned learned = learn_remainder(model, held_out, told);
+  const Candidate told_unseen = for_unseen(held_out, found.whitening, told);
+  const Learned learned = learn_remainder(model, told, held_out, told_unseen);
   progress(fmt::format("a learned table would explain {:.0f} % of the {:.2g} N left over on held-out runs",
                        100.0 * learned.share_held_out, learned.remainder_N));
   const bool repeats = learned.share_held_out > smallest_share_held_out && learned.remainder_N > smallest_remainder_N;
@@ -169,22 +171,25 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
     result.verdict = "unknown";
     result.suspects.clear();
     result.unknown = learned;
-    result.updated = extended(told, worth_naming);
+    result.updated = extended(told, worth_naming).common;
     auto with_table = result.updated;
     if (repeats) extend(with_table, learned);
-    const auto error = [&forward](const plant::AxisParameters& axis) { return forward.nrmse(axis).at("torque_cmd_Nm"); };
+    const auto error = [&](const plant::AxisParameters& axis) {
+      return forward.nrmse(with_phases_of(told, axis)).at("torque_cmd_Nm");
+    };
     if (repeats && error(with_table) < least_gain_of_a_table * error(result.updated)) result.updated = with_table;
   }
-  forward.learn_meter_noise(result.updated);
+  forward.learn_meter_noise(with_phases_of(told, result.updated));
   simulated.take_meter_from(forward);
-  result.holdout_inverse = figures(held_out, nominal, found.recalibrated.model, told);
-  result.holdout = figures(simulated, data.axis, extended(found.recalibrated.model), result.updated);
+  result.holdout_inverse = figures(held_out, nominal, found.recalibrated.model, told_unseen);
+  const AxisByRun updated_unseen = with_phases_of(told_unseen, result.updated);
+  result.holdout = figures(simulated, data.axis, extended(found.recalibrated.model), updated_unseen);
   std::vector<const Hypothesis*> named;
   for (const auto& effect : result.effects) named.push_back(effect.hypothesis);
   result.pictures =
-      pictures(simulated, held_out.tracks(), {data.axis, extended(found.recalibrated.model), result.updated}, named);
+      pictures(simulated, held_out.tracks(), {data.axis, extended(found.recalibrated.model), updated_unseen}, named);
   result.energy_before = energy(held_out, nominal);
-  result.energy_after = energy(held_out, told);
+  result.energy_after = energy(held_out, told_unseen);
   plan_next(result, {data, forward, fitter, found.whitening, told}, progress);
   result.summary = summary_of(result);
   return result;

@@ -16,9 +16,8 @@ std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Ca
   return out;
 }
 
-std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const plant::AxisParameters& nominal,
-                                              const plant::AxisParameters& recalibrated_only,
-                                              const plant::AxisParameters& final) {
+std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const AxisByRun& nominal,
+                                              const AxisByRun& recalibrated_only, const AxisByRun& final) {
   std::map<std::string, ChannelFigures> out;
   const auto before = runs.nrmse(nominal), middle = runs.nrmse(recalibrated_only), after = runs.nrmse(final);
   const auto floor = runs.noise_floor(final);

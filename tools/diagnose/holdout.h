@@ -11,8 +11,7 @@ namespace feedtwin::tools::diagnosis {
                                                             const Candidate& recalibrated_only, const Candidate& final);
 
 /// By closed-loop simulation.
-[[nodiscard]] std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const plant::AxisParameters& nominal,
-                                                            const plant::AxisParameters& recalibrated_only,
-                                                            const plant::AxisParameters& final);
+[[nodiscard]] std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const AxisByRun& nominal,
+                                                            const AxisByRun& recalibrated_only, const AxisByRun& final);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -3,6 +3,7 @@
 // where its search starts, and what an engineer calls its parameters. One file each in hypotheses/, one line in the
 // registry.
 
+#include <complex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ struct Contribution {
   double table_mass_kg = 0.0;              ///< more mass on the table
   Vector screw_sliding, screw_viscous;     ///< factors on F_C and F_S, on mu, along the run
 };
+
+/// Runs that a line has a phase of its own in; any further one shares the last one's.
+inline constexpr std::size_t line_runs = 4;
 
 /// How a working parameter enters.
 enum class Kind {
@@ -87,6 +91,8 @@ struct Hypothesis {
   std::string_view always_beside = {};  ///< obeys the same equation: always an alternative
   /// The grid where it depends on where the axis was; in place of `shapes`.
   std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
+  /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
+  std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 
   bool friction = false;  ///< sets the factors, so that friction must be followed again
 };

@@ -137,8 +137,9 @@ void judge(Learned& table, const Rows& rows) {
 
 }  // namespace
 
-Learned learn_remainder(const InverseModel& model, const InverseModel& others, const Candidate& at) {
-  Rows rows = force_rows(model, at), unseen = force_rows(others, at);
+Learned learn_remainder(const InverseModel& model, const Candidate& at, const InverseModel& others,
+                        const Candidate& of_others) {
+  Rows rows = force_rows(model, at), unseen = force_rows(others, of_others);
   Learned best;
   best.share_held_out = -1.0;
   if (rows.remainder_N.size() < 200 || unseen.remainder_N.size() < 50) return best;

@@ -17,7 +17,9 @@ struct Learned {
 };
 
 /// The axis that explains most; `others` are the held-out runs.
-[[nodiscard]] Learned learn_remainder(const InverseModel& model, const InverseModel& others, const Candidate& at);
+/// @param of_others the model as it is for the others: their lines may have phases of their own
+[[nodiscard]] Learned learn_remainder(const InverseModel& model, const Candidate& at, const InverseModel& others,
+                                      const Candidate& of_others);
 
 /// The plant's own term for it.
 void extend(plant::AxisParameters& axis, const Learned& learned);

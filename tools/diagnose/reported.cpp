@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/diagnose/hypotheses/shapes.h"
+#include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/sentence.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -125,6 +126,10 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
   if (!beside.empty() && std::ranges::find(effect.alternatives, beside) == effect.alternatives.end())
     effect.alternatives.push_back(beside);
   effect.sentence = sentence_of(effect);
+  const auto now = std::ranges::find(fit.model.effects, effect.hypothesis, &Active::hypothesis);
+  if (effect.hypothesis->line_of != nullptr)
+    effect.sentence += phases_agree(*now) ? " All runs share its phase."
+                                          : " Each run has a phase of its own; a held-out run's is taken from that run.";
   return effect;
 }
 

@@ -30,7 +30,7 @@ Active cogging(double sine_Nm) {
 /// Runs of the source's axis, with cogging or without, under a nominal model that is some per cent off.
 Case made_case(double sine_Nm) {
   const auto truth =
-      extended({plant::source_axis(), sine_Nm == 0.0 ? std::vector<Active>{} : std::vector{cogging(sine_Nm)}});
+      extended({plant::source_axis(), sine_Nm == 0.0 ? std::vector<Active>{} : std::vector{cogging(sine_Nm)}}).common;
   auto nominal = plant::source_axis();
   nominal.motor.inertia_kgm2 *= 1.05;
   nominal.ball_screw.coulomb_N.pos *= 0.94;
@@ -75,9 +75,10 @@ TEST(ForwardModel, ConfirmsWhatIsThereAndNotWhatIsNot) {
 }
 
 TEST(ExtendedAxis, AGapBesideASpringAddsNoSpringOfItsOwn) {
-  const auto axis = extended(
-      {plant::source_axis(),
-       {{&hypothesis("backlash"), {4e-6, std::log(6e7), std::log(2e3)}}, {&hypothesis("screw_compliance"), {2e-8}}}});
+  const auto axis = extended({plant::source_axis(),
+                              {{&hypothesis("backlash"), {4e-6, std::log(6e7), std::log(2e3)}},
+                               {&hypothesis("screw_compliance"), {2e-8}}}})
+                        .common;
   ASSERT_EQ(axis.effects.size(), 2U);
   const auto stiffness = [&axis](std::size_t i) {
     auto setting = axis.effects[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plant/effects/registry.h"
+#include "tools/diagnose/own_phase.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -24,9 +25,27 @@ void join_contact(plant::EffectSetting& gap, const plant::EffectSetting& spring)
   }
 }
 
+void set_phase(plant::AxisParameters& axis, const Active& line, std::complex<double> value) {
+  const auto setting = std::ranges::find(axis.effects, line.hypothesis->id, &plant::EffectSetting::id);
+  if (setting == axis.effects.end()) return;
+  *plant::value_in(*setting, *plant::find_effect(setting->id), "phase_rad") = std::arg(value);
+}
+
 }  // namespace
 
-plant::AxisParameters extended(const Candidate& candidate, const std::function<bool(const Active&)>& kept) {
+AxisByRun with_phases_of(const Candidate& model, plant::AxisParameters axis) {
+  AxisByRun all(std::move(axis));
+  for (const auto& active : model.effects) {
+    if (active.hypothesis->line_of == nullptr) continue;
+    if (all.runs.empty()) all.runs.assign(line_runs, all.common);
+    set_phase(all.common, active, common_line(active));
+    for (std::size_t run = 0; run < line_runs; ++run)
+      set_phase(all.runs[run], active, active.hypothesis->line_of(active.q, run));
+  }
+  return all;
+}
+
+AxisByRun extended(const Candidate& candidate, const std::function<bool(const Active&)>& kept) {
   plant::AxisParameters axis = candidate.axis;
   keep_breakaway(axis.ball_screw);
   keep_breakaway(axis.guide);
@@ -46,7 +65,7 @@ plant::AxisParameters extended(const Candidate& candidate, const std::function<b
       spring = std::ranges::find(axis.effects, "screw_compliance", &plant::EffectSetting::id);
       gap != axis.effects.end() && spring != axis.effects.end())
     join_contact(*gap, *spring);
-  return axis;
+  return with_phases_of(candidate, std::move(axis));
 }
 
 }  // namespace feedtwin::tools::diagnosis

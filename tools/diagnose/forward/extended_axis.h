@@ -4,12 +4,14 @@
 #include <functional>
 
 #include "tools/diagnose/fit.h"
+#include "tools/diagnose/forward/axis_by_run.h"
 
 namespace feedtwin::tools::diagnosis {
 
 /// The candidate's axis with its effects switched on, each number within the range that the plant gives it.
 /// @param kept which effects; by default all that the plant has
-[[nodiscard]] plant::AxisParameters extended(const Candidate& candidate,
-                                             const std::function<bool(const Active&)>& kept = nullptr);
+[[nodiscard]] AxisByRun extended(const Candidate& candidate, const std::function<bool(const Active&)>& kept = nullptr);
+/// An axis that has effects of this model, with the phases that the model's lines have in each run.
+[[nodiscard]] AxisByRun with_phases_of(const Candidate& model, plant::AxisParameters axis);
 
 }  // namespace feedtwin::tools::diagnosis

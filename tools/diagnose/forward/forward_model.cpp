@@ -101,13 +101,13 @@ std::vector<Simulated> ForwardModel::simulate(const ClosedLoopRun& run,
   return all;
 }
 
-std::vector<Simulated> ForwardModel::simulate(const plant::AxisParameters& axis) const {
+std::vector<Simulated> ForwardModel::simulate(const AxisByRun& axis) const {
   std::vector<Simulated> all(runs_.size());
-  parallel_for(runs_.size(), [&](std::size_t r) { all[r] = simulated(runs_[r], axis); });
+  parallel_for(runs_.size(), [&](std::size_t r) { all[r] = simulated(runs_[r], axis.of(r)); });
   return all;
 }
 
-void ForwardModel::learn_meter(const plant::AxisParameters& axis) {
+void ForwardModel::learn_meter(const AxisByRun& axis) {
   const auto error = [&](bool sampled) {
     meter_.sampled = sampled;
     const auto found = nrmse(axis);
@@ -119,7 +119,7 @@ void ForwardModel::learn_meter(const plant::AxisParameters& axis) {
   meter_.sampled = sampled < all_time;
 }
 
-void ForwardModel::learn_meter_noise(const plant::AxisParameters& axis) {
+void ForwardModel::learn_meter_noise(const AxisByRun& axis) {
   const auto power = std::ranges::find(fitted_channels, channel::power_W) - fitted_channels.begin();
   const auto simulated = simulate(axis);
   std::vector<double> shares;
@@ -139,16 +139,16 @@ void ForwardModel::learn_meter_noise(const plant::AxisParameters& axis) {
   meter_.share = 1.4826 * *middle;
 }
 
-Nrmse ForwardModel::nrmse(const plant::AxisParameters& axis) const {
+Nrmse ForwardModel::nrmse(const AxisByRun& axis) const {
   const auto simulated = simulate(axis);
   SquaresByChannel sums;
   for (std::size_t r = 0; r < runs_.size(); ++r) add_squares(runs_[r], simulated[r], sums);
   return as_nrmse(sums);
 }
 
-Nrmse ForwardModel::noise_floor(const plant::AxisParameters& axis) const {
+Nrmse ForwardModel::noise_floor(const AxisByRun& axis) const {
   const auto simulated = simulate(axis);
-  const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
+  const double count_m = axis.common.axis.lead_m / axis.common.axis.encoder_counts_per_rev;
   std::vector<Recording> made;
   for (std::size_t r = 0; r < runs_.size(); ++r) made.push_back(as_recorded(runs_[r], simulated[r], count_m, meter_.share));
   ForwardModel again(made, *data_);

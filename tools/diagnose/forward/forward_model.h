@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/diagnose/figures.h"
+#include "tools/diagnose/forward/axis_by_run.h"
 #include "tools/identify/closed_loop.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -16,9 +17,9 @@ class ForwardModel {
 
   /// Does the power meter average over all time, or over instants sampled with the controller? Whichever comes closer to the
   /// recordings with this axis; until asked, over all time.
-  void learn_meter(const plant::AxisParameters& axis);
+  void learn_meter(const AxisByRun& axis);
   /// The scatter of the meter's readings, as a share of each, from the differences of neighbouring residuals.
-  void learn_meter_noise(const plant::AxisParameters& axis);
+  void learn_meter_noise(const AxisByRun& axis);
   void take_meter_from(const ForwardModel& other) { meter_ = other.meter_; }
 
   [[nodiscard]] const std::vector<ClosedLoopRun>& runs() const { return runs_; }
@@ -26,13 +27,13 @@ class ForwardModel {
   [[nodiscard]] std::vector<Simulated> simulate(const ClosedLoopRun& run,
                                                 const std::vector<plant::AxisParameters>& axes) const;
   /// Every run of one axis, on all cores.
-  [[nodiscard]] std::vector<Simulated> simulate(const plant::AxisParameters& axis) const;
+  [[nodiscard]] std::vector<Simulated> simulate(const AxisByRun& axis) const;
 
   /// |y - s| / |y - mean y| by channel over all runs; the scale's as what it shows beyond the encoder, over its travel.
-  [[nodiscard]] Nrmse nrmse(const plant::AxisParameters& axis) const;
+  [[nodiscard]] Nrmse nrmse(const AxisByRun& axis) const;
   /// What would be left if this axis had made the recordings: the encoder's grid seen through the closed loop, and the
   /// sensors' own white noise. From simulating what it would have recorded.
-  [[nodiscard]] Nrmse noise_floor(const plant::AxisParameters& axis) const;
+  [[nodiscard]] Nrmse noise_floor(const AxisByRun& axis) const;
 
  private:
   [[nodiscard]] Simulated simulated(const ClosedLoopRun& run, const plant::AxisParameters& axis) const;

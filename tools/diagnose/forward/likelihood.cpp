@@ -36,7 +36,7 @@ double Likelihood::total() const {
   return std::accumulate(stretches.begin(), stretches.end(), 0.0);
 }
 
-Likelihood likelihood(const ForwardModel& forward, const plant::AxisParameters& axis) {
+Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis) {
   const auto simulated = forward.simulate(axis);
   std::array<Channel, fitted_channels.size()> channels;
   Likelihood found;

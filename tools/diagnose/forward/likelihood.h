@@ -15,7 +15,7 @@ struct Likelihood {
   [[nodiscard]] double total() const;
 };
 
-[[nodiscard]] Likelihood likelihood(const ForwardModel& forward, const plant::AxisParameters& axis);
+[[nodiscard]] Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis);
 
 /// How much likelier the first is, and how far beyond the scatter over the stretches.
 struct Comparison {

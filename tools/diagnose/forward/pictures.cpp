@@ -120,7 +120,7 @@ std::vector<Figure> pictures(const ForwardModel& forward, const std::vector<Trac
                              const std::vector<const Hypothesis*>& named) {
   const auto before = forward.simulate(named.empty() ? stages.nominal : stages.recalibrated);
   const auto after = forward.simulate(stages.updated);
-  const double lead_m = stages.nominal.axis.lead_m;
+  const double lead_m = stages.nominal.common.axis.lead_m;
   std::vector<Figure> figures;
   const auto show = [&](std::string_view name, Where where, const std::string& what) {
     const auto channel_at = std::ranges::find(fitted_channels, name) - fitted_channels.begin();

@@ -9,7 +9,7 @@ namespace feedtwin::tools::diagnosis {
 
 /// The axes whose remainders are shown beside each other.
 struct Stages {
-  plant::AxisParameters nominal, recalibrated, updated;
+  AxisByRun nominal, recalibrated, updated;
 };
 
 /// @param tracks of the same runs, for speed and reversals

@@ -87,7 +87,8 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   const auto unknowns = unknowns_of(fitter, start);
   const BatchSimulator simulator = [&](const ClosedLoopRun& run, const Eigen::MatrixXd& points) {
     std::vector<plant::AxisParameters> axes;
-    for (Index i = 0; i < points.cols(); ++i) axes.push_back(extended(at(fitter, start, points.col(i))));
+    const auto place = static_cast<std::size_t>(&run - forward.runs().data());
+    for (Index i = 0; i < points.cols(); ++i) axes.push_back(extended(at(fitter, start, points.col(i))).of(place));
     return forward.simulate(run, axes);
   };
   OutputErrorSettings output_error;

@@ -32,6 +32,7 @@ Hypothesis floor_vibration() {
 
           .confused_with = {"process_force"},
           .always_beside = "process_force",
+          .line_of = line_of_run,
           .friction = false};
 }
 

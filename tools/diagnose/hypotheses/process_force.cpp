@@ -32,6 +32,7 @@ Hypothesis process_force() {
 
           .confused_with = {"floor_vibration"},
           .always_beside = "floor_vibration",
+          .line_of = line_of_run,
           .friction = false};
 }
 

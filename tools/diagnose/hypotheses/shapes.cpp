@@ -6,8 +6,6 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::size_t line_runs = 4;
-
 double line_square(std::span<const double> q, std::size_t run) {
   return q[2 * run] * q[2 * run] + q[2 * run + 1] * q[2 * run + 1];
 }
@@ -84,6 +82,11 @@ void add_line(const Track& track, std::span<const double> q, Vector& force_N) {
   if (q[2 * run] == 0.0 && q[2 * run + 1] == 0.0) return;
   const Vector t = Vector::LinSpaced(track.size, 0.0, static_cast<double>(track.size - 1) * track.sample_s);
   add(force_N, wave(t, 1.0, q[8], q[2 * run], q[2 * run + 1]));
+}
+
+std::complex<double> line_of_run(std::span<const double> q, std::size_t run) {
+  const std::size_t own = std::min(run, line_runs - 1);
+  return {q[2 * own], q[2 * own + 1]};
 }
 
 bool has_line(std::span<const double> q, std::size_t run) {

@@ -23,6 +23,8 @@ namespace feedtwin::tools::diagnosis {
 /// A force of one frequency with a phase of its own in each of up to four runs: sine and cosine of each run, frequency.
 [[nodiscard]] std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz);
 void add_line(const Track& track, std::span<const double> q, Vector& force_N);
+/// Its amplitude and phase in a run, see Hypothesis::line_of.
+[[nodiscard]] std::complex<double> line_of_run(std::span<const double> q, std::size_t run);
 /// Has this run a line? Of a run that is not there only what differences left.
 [[nodiscard]] bool has_line(std::span<const double> q, std::size_t run);
 /// Root mean square of the runs' amplitudes.

@@ -43,7 +43,7 @@ tools::Whitening colour_of(const std::vector<std::vector<double>>& stretches) {
 }
 
 plant::AxisParameters axis_of(const Move& move, const Candidate& model) {
-  auto axis = without_stops(extended(model));
+  auto axis = without_stops(extended(model).common);
   axis.guide_mass_kg += move.more_on_table_kg;
   axis.axis.encoder_counts_per_rev *= finer_encoder;
   if (!move.process_runs) std::erase_if(axis.effects, [](const auto& e) { return e.id == "process_force"; });
