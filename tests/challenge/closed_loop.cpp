@@ -205,8 +205,7 @@ Run record(const Axis& true_axis, const Effects& effects, const Noise& noise, co
       window_start_s = t;
     }
     s.power_W = shown_W;
-    s.true_velocity_m_per_s = drive.motor_m_per_s(y);
-    s.true_acceleration_m_per_s2 = sensed.acceleration_m_per_s2;
+    const double before_m_per_s = drive.motor_m_per_s(y);
     run.push_back(s);
 
     if (delay_rest_s > 0.0) {
@@ -216,6 +215,10 @@ Run record(const Axis& true_axis, const Effects& effects, const Noise& noise, co
     } else {
       integrator.advance(t, t + tick_s);
     }
+    // means over the tick that the command is held in: at its beginning a delayed command has not yet come
+    const double after_m_per_s = drive.motor_m_per_s(integrator.state());
+    run.back().true_velocity_m_per_s = 0.5 * (before_m_per_s + after_m_per_s);
+    run.back().true_acceleration_m_per_s2 = (after_m_per_s - before_m_per_s) / tick_s;
   }
   return run;
 }

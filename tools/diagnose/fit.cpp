@@ -54,7 +54,9 @@ Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
   for (std::size_t i = 0; i < base_.size(); ++i, ++at) {
     const double value = value_of(base_[i], from.axis);
     const double change = step[at] * tolerance(i);
-    const double most = std::max(0.4 * std::abs(value), 0.4 * tolerance(i));
+    // by its nominal size too: a number that a wrong model took to nothing must find its way back
+    const double size = std::max(std::abs(value), std::abs(value_of(base_[i], nominal_)));
+    const double most = 0.4 * std::max(size, tolerance(i));
     set_value(base_[i], to.axis, value + std::clamp(change, -most, most));
   }
   for (auto& effect : to.effects)

@@ -107,7 +107,10 @@ class Search {
       Candidate start = fit_.model;
       start.effects.push_back(at_zero(score));
       Fit fit = fitter_.fit(start, whitening_, iterations);
-      if (!possible(fit.model.effects.back(), fit.model.axis)) continue;
+      if (!possible(fit.model.effects.back(), fit.model.axis)) {
+        progress_(fmt::format("  {}: no such size", in_words(fit.model.effects.back(), fit.model.axis)));
+        continue;
+      }
       const auto verdict = judged(fitter_, fit, fit_, *score.hypothesis, bar_);
       progress_(fmt::format("  {}: gain {:.0f}, surprise {:.0f}, strength {:.2f}",
                             in_words(fit.model.effects.back(), fit.model.axis), verdict.gain, verdict.surprise,

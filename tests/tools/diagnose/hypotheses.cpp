@@ -55,7 +55,7 @@ const std::map<std::string_view, Trial>& trials() {
       {"local_friction", {{{"height_N", 15.0}, {"centre_m", 0.004}, {"half_width_m", 0.002}}, {0, 0.0038, 0.002}, 0.08}},
       {"dwell_breakaway", {{{"relative_rise", 0.4}, {"time_constant_s", 0.06}}, {0, 0.05}, 0.25}},
       {"regeneration_clipped", {{{"share", 1.0}}, {0}}},
-      {"sensor_gain", {{{"torque_sensor_gain", 1.1}, {"force_sensor_gain", 0.92}}, {0, 0}, 0.03, true, true}},
+      {"sensor_gain", {{{"torque_sensor_gain", 1.1}, {"force_sensor_gain", 1.0}}, {0, 0, 0}, 0.03, true, true}},
       {"channel_skew", {{{"torque_sensor_delay_s", 3e-3}, {"force_sensor_delay_s", 2e-3}}, {0, 0}}},
       {"torque_saturation", {{{"limit_Nm", 0.7}}, {0, 0.68}}},
       {"floor_vibration", {{{"acceleration_m_per_s2", 2.0}, {"frequency_Hz", 17.03}}, {0, 0, 0, 0, 0, 0, 0, 0, 17.0}}},
