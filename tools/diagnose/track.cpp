@@ -134,6 +134,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
 
   track.held_N = per_lead * as_vector(recording.at(channel::torque_cmd_Nm));
   track.command_N = about_sample(track.held_N);
+  track.shown_m = x;
   track.position_m = smoothed(x);
   track.velocity_m_per_s = Vector::Zero(n);
   track.velocity_m_per_s.head(n - 1) = (track.position_m.tail(n - 1) - track.position_m.head(n - 1)) / h;

@@ -39,6 +39,7 @@ struct Track {
   Index size = 0;
   Vector command_N;         ///< mean of the command before and after the sample
   Vector held_N;            ///< command in force after the sample
+  Vector shown_m;           ///< position as it was recorded
   Vector position_m;        ///< lightly smoothed
   Vector velocity_m_per_s;  ///< mean over the sample that follows
   Vector centred_m_per_s;   ///< velocity at the sample

@@ -9,12 +9,32 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+/// What the reading lacks, sample by sample. The mark is passed at the shaft's true angle, reading and loss together: just
+/// after a pass the reading repeats what it showed before it, and of two passes that fit the smoother motion is taken.
+Vector lost(const Vector& shown_m, double per_pass_m, double lead_m, double mark_rev) {
+  const auto passes_at = [&](double true_m) { return std::floor(true_m / lead_m - mark_rev) + 1.0; };
+  Vector lost_m(shown_m.size());
+  double before_m = shown_m[0], last_m = shown_m[0], passes = passes_at(shown_m[0]);
+  for (Index k = 0; k < shown_m.size(); ++k) {
+    const double expected_m = 2.0 * last_m - before_m;
+    double best = passes, off_m = 1e300;
+    for (const double tried : {passes, passes - 1.0, passes + 1.0}) {
+      const double true_m = shown_m[k] + tried * per_pass_m;
+      if (passes_at(true_m) == tried && std::abs(true_m - expected_m) < off_m)
+        best = tried, off_m = std::abs(true_m - expected_m);
+    }
+    passes = off_m < 1e300 ? best : passes_at(shown_m[k] + passes * per_pass_m);
+    lost_m[k] = passes * per_pass_m;
+    before_m = k > 0 ? last_m : shown_m[k] + lost_m[k];
+    last_m = shown_m[k] + lost_m[k];
+  }
+  return lost_m;
+}
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const double lead_m = view.axis.axis.lead_m, count_m = lead_m / view.axis.axis.encoder_counts_per_rev;
-  Vector lost_m(track.size);  // in the reading
-  for (Index k = 0; k < track.size; ++k)
-    lost_m[k] = q[0] * count_m * (std::floor(track.position_m[k] / lead_m - q[1] / (2.0 * std::numbers::pi)) + 1.0);
+  const Vector lost_m = lost(track.shown_m, q[0] * count_m, lead_m, q[1] / (2.0 * std::numbers::pi));
   add(sum.slip_m, lost_m);
   Vector acceleration = Vector::Zero(track.size);  // that is not there
   const Index n = track.size;
