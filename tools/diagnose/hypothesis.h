@@ -91,6 +91,8 @@ struct Hypothesis {
   std::string_view always_beside = {};  ///< obeys the same equation: always an alternative
   /// The grid where it depends on where the axis was; in place of `shapes`.
   std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
+  /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.
+  std::vector<std::vector<double>> starts = {};
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 

@@ -101,6 +101,21 @@ Active at_zero(const Score& score) {
   return active;
 }
 
+Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, std::size_t place, const Whitening& whitening,
+             int iterations) {
+  constexpr int first_look = 2;
+  Candidate start = model;
+  start.effects.insert(start.effects.begin() + static_cast<std::ptrdiff_t>(place), at_zero(more));
+  if (more.hypothesis->starts.empty()) return fitter.fit(start, whitening, iterations);
+  Fit best = fitter.fit(start, whitening, first_look);
+  for (const auto& q : more.hypothesis->starts) {
+    start.effects[place].q = q;
+    Fit other = fitter.fit(start, whitening, first_look);
+    if (other.cost < best.cost) best = std::move(other);
+  }
+  return fitter.fit(best.model, whitening, iterations);
+}
+
 namespace {
 
 Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, const Fitter& fitter, const Fit& fit,

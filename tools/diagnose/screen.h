@@ -26,6 +26,9 @@ struct Screen {
 
 /// The hypothesis with its best shape and no strength yet: where a joint fit starts from.
 [[nodiscard]] Active at_zero(const Score& score);
+/// A model with this effect more, refitted from zero and from wherever else the effect has a start. It stands at `place`.
+[[nodiscard]] Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, std::size_t place,
+                           const Whitening& whitening, int iterations);
 
 [[nodiscard]] Screen screen(const Fitter& fitter, const Fit& fit, const Whitening& whitening);
 /// Some hypotheses alone, without asking what chance does.

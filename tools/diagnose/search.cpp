@@ -104,9 +104,7 @@ class Search {
       const double p = last_.p_false_alarm(score.standard);
       if (score.gain < bar_.gain || p > bar_.p_false_alarm || dropped_.contains(score.hypothesis)) continue;
       if (++tried > refitted) break;
-      Candidate start = fit_.model;
-      start.effects.push_back(at_zero(score));
-      Fit fit = fitter_.fit(start, whitening_, iterations);
+      Fit fit = fit_with(fitter_, fit_.model, score, fit_.model.effects.size(), whitening_, iterations);
       if (!possible(fit.model.effects.back(), fit.model.axis)) {
         progress_(fmt::format("  {}: no such size", in_words(fit.model.effects.back(), fit.model.axis)));
         continue;
@@ -182,9 +180,7 @@ class Search {
     for (const auto& score : earlier_[i]) {
       const auto* rival = score.hypothesis;
       if (has(fit_.model, *rival) || score.gain < 0.7 * own || ++tried > rivals_tried) continue;
-      Candidate start = less.model;
-      start.effects.push_back(at_zero(score));
-      const Fit fit = fitter_.fit(start, whitening_, iterations);
+      const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, iterations);
       const Active& other = fit.model.effects.back();
       if (!worth_naming(other) || !possible(other, fit.model.axis) || !judged(fitter_, fit, less, *rival, bar_).enough)
         continue;

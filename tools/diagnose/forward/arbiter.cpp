@@ -56,10 +56,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {
     std::erase(entry->rivals, score.hypothesis);
     if (score.gain <= 0.0) continue;
-    Candidate start = less.model;
-    start.effects.push_back(at_zero(score));
-    std::rotate(start.effects.begin() + static_cast<std::ptrdiff_t>(e), start.effects.end() - 1, start.effects.end());
-    const Fit other = fitter_.fit(start, found.whitening, iterations);
+    const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, iterations);
     if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
     const Ruling rival = rule(other);
