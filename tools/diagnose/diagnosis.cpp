@@ -127,7 +127,9 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   progress("polishing the numbers by closed-loop simulation");
   if (!unknown) {
     auto polished = polish(forward, fitter, settled);
-    if (closest(forward, {extended(polished.model, worth_naming), extended(fit.model, worth_naming)}) == 0) {
+    // with its nuisances or without them: friction may rest on one
+    if (closest(forward, {extended(polished.model, worth_naming), extended(polished.model),
+                          extended(fit.model, worth_naming), extended(fit.model)}) < 2) {
       fit.model = polished.model;
       covariance = with_what_only_inverse_tells(polished.covariance, covariance, polished.model, fit.base_count());
       const std::size_t named = fit.model.effects.size();

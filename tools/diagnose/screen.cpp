@@ -107,11 +107,13 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
   Candidate start = model;
   start.effects.insert(start.effects.begin() + static_cast<std::ptrdiff_t>(place), at_zero(more));
   if (more.hypothesis->starts.empty()) return fitter.fit(start, whitening, iterations);
+  const auto allowed = [place](const Fit& fit) { return possible(fit.model.effects[place], fit.model.axis); };
   Fit best = fitter.fit(start, whitening, first_look);
   for (const auto& q : more.hypothesis->starts) {
     start.effects[place].q = q;
     Fit other = fitter.fit(start, whitening, first_look);
-    if (other.cost < best.cost) best = std::move(other);
+    const bool better = allowed(other) == allowed(best) ? other.cost < best.cost : allowed(other);
+    if (better) best = std::move(other);
   }
   return fitter.fit(best.model, whitening, iterations);
 }
