@@ -161,6 +161,25 @@ TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
   }
 }
 
+// After some turns the reading is off by more than the shaft moves in a sample: its own angle would misplace the mark.
+TEST(CountLoss, TheMarkIsPassedAtTheShaftsTrueAngle) {
+  constexpr double counts = 400.0, angle_rad = 2.0;
+  auto axis = plant::source_axis();
+  axis.effects.push_back(tests::effect("count_loss", {{"counts_per_pass", counts}, {"angle_rad", angle_rad}}));
+  const tools::Recording recording = tests::make_recording(axis, {.motion = "sine",
+                                                                  .settings = {.amplitude_m = 0.02, .speed_m_per_s = 0.02},
+                                                                  .duration_s = 8.0,
+                                                                  .scale_at_table = true});
+  const Track track = make_track(recording, plant::source_axis());
+  Contribution sum;
+  hypothesis("count_loss").apply({track, plant::source_axis(), Baseline{}}, std::vector{counts, angle_rad}, sum);
+  const double loss_m = counts * axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
+  const double most_m = track.slip_m.cwiseAbs().maxCoeff();
+  EXPECT_GT(most_m, 2.5 * loss_m) << "several turns";
+  const Eigen::ArrayXd off_m = (track.slip_m - sum.slip_m).array().abs();
+  EXPECT_LT((off_m > 0.2 * loss_m).count(), 3) << "samples in which another turn is taken";
+}
+
 std::vector<std::string_view> ids() {
   std::vector<std::string_view> all;
   for (const auto& one : hypotheses()) all.push_back(one.id);

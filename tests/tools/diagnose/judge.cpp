@@ -6,6 +6,7 @@
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/hypotheses/shapes.h"
+#include "tools/diagnose/screen.h"
 
 namespace feedtwin {
 namespace {
@@ -39,6 +40,31 @@ TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
   start.axis.motor.inertia_kgm2 *= 8.0;  // a step is two fifths of the value at most: two of them do not arrive
   const Fit fit = fitter.fit(start, whitening, 2);
   EXPECT_NEAR(fit.model.axis.motor.inertia_kgm2, axis.motor.inertia_kgm2, 0.01 * axis.motor.inertia_kgm2);
+}
+
+TEST_F(Judged, ANumberThatAWrongModelTookToNothingFindsItsWayBack) {
+  const Whitening whitening = Whitening::estimate(model, model.residual(axis, {}));
+  Candidate start{axis, {}};
+  start.axis.ball_screw.coulomb_N.pos = 1e-3;
+  const Fit fit = fitter.fit(start, whitening, 1);
+  EXPECT_NEAR(fit.model.axis.ball_screw.coulomb_N.pos, axis.ball_screw.coulomb_N.pos, 0.05 * axis.ball_screw.coulomb_N.pos);
+}
+
+TEST(Starts, ADeadTimeOfSeveralTicksIsReachedThoughASensorReadsAnotherCommandWithEach) {
+  constexpr double delay_s = 3.4e-3;
+  auto truth = plant::source_axis(), nominal = truth;
+  truth.effects.push_back(tests::effect("input_delay", {{"delay_s", delay_s}}));
+  nominal.motor.inertia_kgm2 *= 1.05;
+  std::vector<tools::Recording> runs;
+  for (const char* motion : {"triangle", "sine"})
+    runs.push_back(
+        tests::make_recording(truth, {.motion = motion, .duration_s = 4.0, .torque_noise_Nm = 5e-5, .force_noise_N = 0.01}));
+  const InverseModel model(make_tracks(runs, nominal), nominal);
+  const Fitter fitter(model, nominal);
+  const Whitening whitening = fitter.colour_of(model.residual(nominal, {}));
+  const Score delay{.hypothesis = &hypothesis("input_delay"), .q = {1e-4}};
+  const Fit fit = fit_with(fitter, {nominal, {}}, delay, 0, whitening, 6);
+  EXPECT_NEAR(fit.model.effects[0].q[0], delay_s, 0.02 * delay_s);
 }
 
 TEST(Lines, ARunThatIsNotThereHasNoPartInTheAmplitude) {
