@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -53,7 +54,7 @@ class Search {
     const Candidate nominal{fitter_.nominal(), {}};
     whitening_ = fitter_.colour_of(fitter_.model().residual(nominal.axis, {}));
     progress_("recalibrating the nominal numbers");
-    fit_ = fitter_.fit_with_colour(nominal, whitening_, rounds, iterations);
+    take(nominal, rounds);
     try_wider_stribeck();
     result.recalibrated = fit_;
     for (std::size_t step = 0; step < 3 * bar_.most_effects; ++step) {
@@ -72,6 +73,19 @@ class Search {
   }
 
  private:
+  /// The model from here on, refitted with a colour of its own.
+  void take(const Candidate& model, int colours = 2) {
+    fit_ = fitter_.fit_with_colour(model, whitening_, colours, iterations);
+    lacking_.clear();
+  }
+
+  /// The fit without one of its effects; asked for more than once.
+  const Fit& lacking(std::size_t effect) {
+    const auto known = lacking_.find(effect);
+    if (known != lacking_.end()) return known->second;
+    return lacking_.emplace(effect, fitter_.fit(without(fit_.model, effect), whitening_, iterations)).first->second;
+  }
+
   /// A Stribeck velocity that is several times off has an optimum of its own, which no small step finds.
   void try_wider_stribeck() {
     constexpr double worth = 30.0;
@@ -88,7 +102,7 @@ class Search {
     if (!best) return;
     progress_(
         fmt::format("a Stribeck velocity of {:.2g} m/s explains more", best->model.axis.ball_screw.stribeck_m_per_s.pos));
-    fit_ = fitter_.fit_with_colour(best->model, whitening_, rounds, iterations);
+    take(best->model, rounds);
   }
 
   /// The best of the hypotheses that pass the bar, refitted jointly.
@@ -122,7 +136,7 @@ class Search {
     progress_("adding " + in_words(best.fit.model.effects.back(), best.fit.model.axis));
     chances_.push_back(best.p_false_alarm);
     earlier_.push_back(last_.scores);
-    fit_ = fitter_.fit_with_colour(best.fit.model, whitening_, 2, iterations);
+    take(best.fit.model);
     return true;
   }
 
@@ -148,7 +162,7 @@ class Search {
     dropped_.insert(fit_.model.effects[effect].hypothesis);
     chances_.erase(chances_.begin() + static_cast<std::ptrdiff_t>(effect));
     earlier_.erase(earlier_.begin() + static_cast<std::ptrdiff_t>(effect));
-    fit_ = fitter_.fit_with_colour(less, whitening_, 2, iterations);
+    take(less);
   }
 
   /// Takes out, one after the other, what the rest can do without.
@@ -161,7 +175,7 @@ class Search {
       Verdict why;
       for (std::size_t i = 0; i < fit_.model.effects.size(); ++i) {
         const auto& active = fit_.model.effects[i];
-        const Fit other = fitter_.fit(without(fit_.model, i), whitening_, iterations);
+        const Fit& other = lacking(i);
         const auto verdict = judged(fitter_, fit_, other, *active.hypothesis, bar_);
         const bool needed = verdict.enough && possible(active, fit_.model.axis);
         if (needed || verdict.gain > least) continue;
@@ -194,7 +208,7 @@ class Search {
         Candidate swapped = fit.model;  // in the same place
         std::rotate(swapped.effects.begin() + static_cast<std::ptrdiff_t>(i), swapped.effects.end() - 1,
                     swapped.effects.end());
-        fit_ = fitter_.fit_with_colour(swapped, whitening_, 2, iterations);
+        take(swapped);
         return true;
       }
       if (worse < std::min(0.03 * gain, 0.005 * fit_.cost) + 15.0) found.rivals.push_back(rival);
@@ -229,7 +243,7 @@ class Search {
     std::vector<std::vector<double>> strong;  // by equation
     std::vector<bool> everywhere(count);
     for (std::size_t i = 0; i < count; ++i) {
-      less.push_back(fitter_.fit(without(fit_.model, i), whitening_, iterations));
+      less.push_back(lacking(i));
       verdicts.push_back(judged(fitter_, fit_, less[i], *fit_.model.effects[i].hypothesis, bar_));
       strong.push_back(strengths(fitter_.model(), fit_, less[i], false, bar_));
     }
@@ -276,6 +290,7 @@ class Search {
   const std::function<void(std::string_view)>& progress_;
   Whitening whitening_;
   Fit fit_;
+  std::map<std::size_t, Fit> lacking_;  ///< of fit_, by effect
   Screen last_;
   std::vector<double> chances_;
   std::vector<std::vector<Score>> earlier_;  ///< what else was in question when each was added
