@@ -43,7 +43,8 @@ Arbiter::Ruling Arbiter::rule(const Fit& fit) const {
   return ruling;
 }
 
-bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e) const {
+bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e,
+                        std::vector<const Hypothesis*>& beaten) const {
   const auto* named = fit.model.effects[e].hypothesis;
   const auto entry = std::ranges::find(found.found, named, [](const Found& one) { return one.effect.hypothesis; });
   // a nuisance only says how the channels read: no name may come of it
@@ -51,7 +52,9 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   std::vector<const Hypothesis*> asked = entry->rivals;
   for (const auto& other : hypotheses())
     if (easily_confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);
-  std::erase_if(asked, [&](const Hypothesis* other) { return has(fit.model, *other); });
+  std::erase_if(asked, [&](const Hypothesis* other) {
+    return has(fit.model, *other) || std::ranges::find(beaten, other) != beaten.end();
+  });
   const Fit less = fitter_.fit(without(fit.model, e), found.whitening, iterations);
   for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {
     std::erase(entry->rivals, score.hypothesis);
@@ -70,6 +73,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
                        std::abs(difference.deviations) > clearly_deviations;
     if (!clear) entry->rivals.push_back(score.hypothesis);
     if (!clear || rival.value < now.value) continue;
+    beaten.push_back(named);
     entry->effect = rival.model.effects[e];
     entry->rivals.clear();
     fit = rival.fit;
@@ -83,9 +87,10 @@ Candidate Arbiter::settle(SearchResult& found, Fit& fit) const {
   if (found.found.empty()) return fit.model;
   constexpr int most_exchanges = 3;
   Ruling now = rule(fit);
+  std::vector<const Hypothesis*> beaten;
   int exchanges = 0;
   for (std::size_t e = 0; e < fit.model.effects.size();) {
-    const bool again = exchanges < most_exchanges && exchanged(found, fit, now, e);
+    const bool again = exchanges < most_exchanges && exchanged(found, fit, now, e, beaten);
     if (again) ++exchanges;
     e = again ? 0 : e + 1;
   }

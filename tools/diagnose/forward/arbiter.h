@@ -25,7 +25,9 @@ class Arbiter {
     double value = 0.0;  ///< nats, less what its parameters cost
   };
   [[nodiscard]] Ruling rule(const Fit& fit) const;
-  [[nodiscard]] bool exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t effect) const;
+  /// @param beaten were exchanged before and are not asked again
+  [[nodiscard]] bool exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t effect,
+                               std::vector<const Hypothesis*>& beaten) const;
 
   const ForwardModel& forward_;
   const Fitter& fitter_;
