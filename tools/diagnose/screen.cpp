@@ -104,18 +104,18 @@ Active at_zero(const Score& score) {
 Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, std::size_t place, const Whitening& whitening,
              int iterations) {
   constexpr int first_look = 2;
+  constexpr double clearly = 10.0;  // of the cost
   Candidate start = model;
   start.effects.insert(start.effects.begin() + static_cast<std::ptrdiff_t>(place), at_zero(more));
-  if (more.hypothesis->starts.empty()) return fitter.fit(start, whitening, iterations);
+  Fit best = fitter.fit(start, whitening, iterations);
   const auto allowed = [place](const Fit& fit) { return possible(fit.model.effects[place], fit.model.axis); };
-  Fit best = fitter.fit(start, whitening, first_look);
   for (const auto& q : more.hypothesis->starts) {
     start.effects[place].q = q;
-    Fit other = fitter.fit(start, whitening, first_look);
-    const bool better = allowed(other) == allowed(best) ? other.cost < best.cost : allowed(other);
-    if (better) best = std::move(other);
+    const Fit other = fitter.fit(start, whitening, first_look);
+    const bool better = allowed(other) == allowed(best) ? other.cost < best.cost - clearly : allowed(other);
+    if (better) best = fitter.fit(other.model, whitening, iterations);
   }
-  return fitter.fit(best.model, whitening, iterations);
+  return best;
 }
 
 namespace {

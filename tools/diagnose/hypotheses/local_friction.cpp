@@ -20,7 +20,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 
 /// Wider is friction that varies along the stroke.
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
-  return q[0] > 0.0 && q[2] < 0.2 * axis.axis.stroke_m;
+  return q[0] > 0.0 && q[2] < 0.05 * axis.axis.stroke_m;
 }
 
 /// All along the recorded travel, narrow, wider, and a twelfth of it wide.
