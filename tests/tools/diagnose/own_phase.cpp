@@ -24,8 +24,8 @@ tools::Recording shaken(double phase_rad, unsigned seed) {
 }
 
 struct Shaken {
-  tools::Case data;
   plant::AxisParameters nominal = plant::source_axis();
+  tools::Case data;
   InverseModel model, unseen;
   Fitter fitter{model, nominal};
   Whitening whitening = Whitening::estimate(model, model.residual(nominal, {}));
