@@ -10,6 +10,6 @@
 namespace feedtwin::tools::diagnosis {
 
 /// Of what one body would show: 1, or less where the recordings say so. 1 without a force sensor.
-[[nodiscard]] double force_jump_share(const std::vector<Track>& runs, const plant::AxisParameters& nominal);
+[[nodiscard]] double force_jump_share(const std::vector<Recording>& runs, const plant::AxisParameters& nominal);
 
 }  // namespace feedtwin::tools::diagnosis

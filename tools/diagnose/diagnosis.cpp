@@ -100,11 +100,9 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   result.setup = mend_setup(data);
   for (const auto& fault : result.setup) progress(fault.sentence);
   progress("following friction along " + std::to_string(data.fit.size()) + " runs");
-  auto tracks = make_tracks(data.fit, data.axis);
-  const double jump_share = force_jump_share(tracks, data.axis);
+  const double jump_share = force_jump_share(data.fit, data.axis);
   if (jump_share < 1.0) progress("the screw yields: the force sensor does not show the command's jumps at once");
-  for (auto& track : tracks) track.force_jump_share = jump_share;
-  const InverseModel model(std::move(tracks), data.axis);
+  const InverseModel model(make_tracks(data.fit, data.axis, jump_share), data.axis);
   for (auto& fault : check_meter(model.tracks().front(), data.axis)) result.setup.push_back(std::move(fault));
   const Fitter fitter(model, data.axis);
   SearchResult found = search(fitter, Bar{}, progress);
@@ -127,9 +125,10 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   progress("polishing the numbers by closed-loop simulation");
   if (!unknown) {
     auto polished = polish(forward, fitter, settled);
-    // with its nuisances or without them: friction may rest on one
-    if (closest(forward, {extended(polished.model, worth_naming), extended(polished.model),
-                          extended(fit.model, worth_naming), extended(fit.model)}) < 2) {
+    auto ways = ways_of(polished.model);
+    const std::size_t of_polished = ways.size();
+    for (auto& unpolished : ways_of(fit.model)) ways.push_back(std::move(unpolished));
+    if (closest(forward, ways) < of_polished) {
       fit.model = polished.model;
       covariance = with_what_only_inverse_tells(polished.covariance, covariance, polished.model, fit.base_count());
       const std::size_t named = fit.model.effects.size();
@@ -150,7 +149,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
       result.effects.push_back(named_effect(one, fit, covariance, model));
   }
   result.recalibrated = recalibrated(fitter, fit, covariance);
-  std::vector<AxisByRun> ways{extended(fit.model, worth_naming), extended(fit.model)};
+  auto ways = ways_of(fit.model);
   if (result.effects.empty()) ways.push_back(extended(found.recalibrated.model)), ways.push_back(data.axis);
   result.updated = ways[closest(forward, ways)].common;
   if (!anything_missing(result)) result.suspects = suspects(fitter, found, by_inverse_model, Bar{}, progress);
@@ -159,9 +158,7 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
 
   progress("figures on what the fit did not see");
   const Candidate nominal{data.axis, {}};
-  tracks = make_tracks(unseen, data.axis);
-  for (auto& track : tracks) track.force_jump_share = jump_share;
-  const InverseModel held_out(std::move(tracks), data.axis);
+  const InverseModel held_out(make_tracks(unseen, data.axis, jump_share), data.axis);
   Candidate told = fit.model;
   if (unknown) told = only_what_the_force_does_not_show(result, found, fit.model);
   const Candidate told_unseen = for_unseen(held_out, found.whitening, told);

@@ -2,20 +2,16 @@
 
 #include <Eigen/QR>
 
+#include "tools/diagnose/hypotheses/shapes.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
 /// Of the runs that have the line at all: of the others only what differences left.
 std::vector<std::complex<double>> lines_of(const Active& active) {
-  constexpr double there = 0.1;
-  double largest = 0.0;
-  for (std::size_t run = 0; run < line_runs; ++run)
-    largest = std::max(largest, std::abs(active.hypothesis->line_of(active.q, run)));
   std::vector<std::complex<double>> lines;
-  for (std::size_t run = 0; run < line_runs; ++run) {
-    const auto line = active.hypothesis->line_of(active.q, run);
-    if (std::abs(line) > there * largest) lines.push_back(line);
-  }
+  for (std::size_t run = 0; run < line_runs; ++run)
+    if (has_line(active.q, run)) lines.push_back(active.hypothesis->line_of(active.q, run));
   return lines;
 }
 

@@ -110,6 +110,7 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
   Fit best = fitter.fit(start, whitening, iterations);
   const auto allowed = [place](const Fit& fit) { return possible(fit.model.effects[place], fit.model.axis); };
   for (const auto& q : more.hypothesis->starts) {
+    if (q == at_zero(more).q) continue;
     start.effects[place].q = q;
     const Fit other = fitter.fit(start, whitening, first_look);
     const bool better = allowed(other) == allowed(best) ? other.cost < best.cost - clearly : allowed(other);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tools/diagnose/judge.h"
+#include "tools/diagnose/preferred.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -36,13 +37,6 @@ std::string in_words(const Active& active, const plant::AxisParameters& axis) {
     values += fmt::format("{}{} {:.4g}", values.empty() ? "" : ", ", name, value);
   return fmt::format("{} ({})", active.hypothesis->id, values);
 }
-
-/// A hypothesis that passed the bar, in the model.
-struct Tried {
-  Fit fit;
-  double value = 0.0;  ///< gain less what its parameters are charged
-  double p_false_alarm = 1.0;
-};
 
 class Search {
  public:
@@ -132,28 +126,12 @@ class Search {
       enough.push_back({std::move(fit), value, p});
     }
     if (enough.empty()) return false;
-    Tried& best = preferred(enough);
+    const Tried& best = preferred(enough);
     progress_("adding " + in_words(best.fit.model.effects.back(), best.fit.model.axis));
     chances_.push_back(best.p_false_alarm);
     earlier_.push_back(last_.scores);
     take(best.fit.model);
     return true;
-  }
-
-  /// The one that explains most; but a nuisance waits while a finding that it could be mistaken for explains nearly as much:
-  /// it comes in after it, where it is there too.
-  static Tried& preferred(std::vector<Tried>& tried) {
-    constexpr double nearly = 0.7;
-    Tried* best = &*std::ranges::max_element(tried, std::less{}, &Tried::value);
-    const Active& first = best->fit.model.effects.back();
-    if (worth_naming(first)) return *best;
-    Tried* finding = nullptr;
-    for (auto& other : tried) {
-      const Active& effect = other.fit.model.effects.back();
-      if (!worth_naming(effect) || !easily_confused(*effect.hypothesis, *first.hypothesis)) continue;
-      if (other.value > nearly * best->value && (finding == nullptr || other.value > finding->value)) finding = &other;
-    }
-    return finding != nullptr ? *finding : *best;
   }
 
   void drop(std::size_t effect, const Candidate& less, const Verdict& why) {

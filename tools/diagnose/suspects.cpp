@@ -37,9 +37,7 @@ std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, c
   for (const auto& score : found.last.scores) {
     if (!can_be_suspected(score, found.last, bar)) continue;
     if (++tried > asked) break;
-    Candidate start = fit.model;
-    start.effects.push_back(at_zero(score));
-    const Fit with = fitter.fit(start, found.whitening, iterations);
+    const Fit with = fit_with(fitter, fit.model, score, fit.model.effects.size(), found.whitening, iterations);
     const Active& active = with.model.effects.back();
     const auto& h = *score.hypothesis;
     if (!possible(active, with.model.axis) || !worth_naming(active)) continue;

@@ -170,11 +170,13 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   return track;
 }
 
-std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis) {
+std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis,
+                               double force_jump_share) {
   std::vector<Track> tracks;
   for (const auto& recording : recordings) {
     tracks.push_back(make_track(recording, axis));
     tracks.back().run = tracks.size() - 1;
+    tracks.back().force_jump_share = force_jump_share;
   }
   return tracks;
 }

@@ -61,7 +61,8 @@ struct Track {
 
 [[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);
 /// Of the runs of a case, each with its place among them.
-[[nodiscard]] std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis);
+[[nodiscard]] std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis,
+                                             double force_jump_share = 1.0);
 
 /// Mean over the sample before and the sample after: from forces over a sample to forces about it.
 [[nodiscard]] Vector about_sample(const Vector& after);

@@ -17,7 +17,7 @@ double share_of(const plant::AxisParameters& truth) {
   std::vector<tools::Recording> runs;
   for (const char* motion : {"sine", "triangle"})
     runs.push_back(tests::make_recording(truth, {.motion = motion, .duration_s = 6.0, .sensors = true}));
-  return force_jump_share(make_tracks(runs, nominal), nominal);
+  return force_jump_share(runs, nominal);
 }
 
 plant::AxisParameters with(const plant::EffectSetting& effect) {

@@ -88,6 +88,18 @@ TEST(ExtendedAxis, AGapBesideASpringAddsNoSpringOfItsOwn) {
   EXPECT_GE(stiffness(0), 100.0 * stiffness(1));
 }
 
+// Friction may rest on a nuisance: then the model without it is another model, which has to be simulated too.
+TEST(ExtendedAxis, ThereAreTwoWaysToSimulateAModelWithANuisance) {
+  const auto memory = [](double force_N) { return Active{&hypothesis("presliding_memory"), {force_N, 2e-5}}; };
+  const auto finding = ways_of({plant::source_axis(), {cogging(amplitude_Nm), memory(80.0)}});
+  ASSERT_EQ(finding.size(), 1U);
+  EXPECT_EQ(finding[0].common.effects.size(), 2U);
+  const auto nuisance = ways_of({plant::source_axis(), {cogging(amplitude_Nm), memory(20.0)}});
+  ASSERT_EQ(nuisance.size(), 2U);
+  EXPECT_EQ(nuisance[0].common.effects.size(), 1U);
+  EXPECT_EQ(nuisance[1].common.effects.size(), 2U);
+}
+
 TEST(Pictures, ShowLessLeftOverAfterThanBefore) {
   const Case data = made_case(amplitude_Nm);
   const ForwardModel held_out(data.holdout, data);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "plant/effects/registry.h"
 #include "tests/support/made_case.h"
@@ -178,6 +179,21 @@ TEST(CountLoss, TheMarkIsPassedAtTheShaftsTrueAngle) {
   EXPECT_GT(most_m, 2.5 * loss_m) << "several turns";
   const Eigen::ArrayXd off_m = (track.slip_m - sum.slip_m).array().abs();
   EXPECT_LT((off_m > 0.2 * loss_m).count(), 3) << "samples in which another turn is taken";
+}
+
+// Between samples a straight line would take 3 % off this sine, and as much off any noise.
+TEST(ChannelSkew, HalfASampleLaterAReadingKeepsItsStrength) {
+  constexpr double per_sample = 2.0 * std::numbers::pi * 80.0 * 1e-3;
+  Track track;
+  track.size = 400;
+  track.force_sensor_N = (per_sample * Vector::LinSpaced(track.size, 0.0, 399.0)).array().sin();
+  Contribution sum;
+  hypothesis("channel_skew").apply({track, plant::source_axis(), Baseline{}}, std::vector{0.0, 0.5e-3}, sum);
+  const auto inside = Eigen::seq(10, track.size - 11);
+  const Vector later = (track.force_sensor_N - sum.force_sensor_N)(inside);
+  const Vector truth = (per_sample * (Vector::LinSpaced(track.size, 0.0, 399.0).array() + 0.5)).sin().matrix()(inside);
+  EXPECT_NEAR(later.norm() / truth.norm(), 1.0, 0.005);
+  EXPECT_LT((later - truth).norm(), 0.01 * truth.norm());
 }
 
 std::vector<std::string_view> ids() {

@@ -68,4 +68,10 @@ AxisByRun extended(const Candidate& candidate, const std::function<bool(const Ac
   return with_phases_of(candidate, std::move(axis));
 }
 
+std::vector<AxisByRun> ways_of(const Candidate& candidate) {
+  std::vector<AxisByRun> ways{extended(candidate, worth_naming)};
+  if (!std::ranges::all_of(candidate.effects, worth_naming)) ways.push_back(extended(candidate));
+  return ways;
+}
+
 }  // namespace feedtwin::tools::diagnosis

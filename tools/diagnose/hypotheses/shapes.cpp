@@ -4,13 +4,6 @@
 #include <cmath>
 
 namespace feedtwin::tools::diagnosis {
-namespace {
-
-double line_square(std::span<const double> q, std::size_t run) {
-  return q[2 * run] * q[2 * run] + q[2 * run + 1] * q[2 * run + 1];
-}
-
-}  // namespace
 
 Vector wave(const Vector& x, double period, double order, double sine, double cosine) {
   const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * order / period * x.array();
@@ -92,14 +85,14 @@ std::complex<double> line_of_run(std::span<const double> q, std::size_t run) {
 bool has_line(std::span<const double> q, std::size_t run) {
   constexpr double there = 0.01;  // of the largest square; less is a step of differences
   double largest = 0.0;
-  for (std::size_t other = 0; other < line_runs; ++other) largest = std::max(largest, line_square(q, other));
-  return line_square(q, run) > there * largest;
+  for (std::size_t other = 0; other < line_runs; ++other) largest = std::max(largest, std::norm(line_of_run(q, other)));
+  return std::norm(line_of_run(q, run)) > there * largest;
 }
 
 double line_amplitude(std::span<const double> q) {
   double sum = 0.0, runs = 0.0;
   for (std::size_t run = 0; run < line_runs; ++run)
-    if (has_line(q, run)) sum += line_square(q, run), runs += 1.0;
+    if (has_line(q, run)) sum += std::norm(line_of_run(q, run)), runs += 1.0;
   return std::sqrt(sum / std::max(1.0, runs));
 }
 
