@@ -73,57 +73,65 @@ Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
   return to;
 }
 
+std::vector<Fitter::Beside> Fitter::beside_of(const Candidate& at) const {
+  constexpr double share_of_tolerance = 0.02;
+  std::vector<Beside> all;
+  for (std::size_t i = 0; i < base_.size(); ++i) {
+    const auto& p = base_[i];
+    const double value = value_of(p, at.axis), unit = tolerance(i);
+    Beside near{at, 0.0, p.moves_friction};
+    for (const double share : {share_of_tolerance, -share_of_tolerance}) {  // back where a bound is in the way
+      set_value(p, near.model.axis, value + share * unit);
+      near.step = (value_of(p, near.model.axis) - value) / unit;
+      if (near.step != 0.0) break;
+    }
+    all.push_back(std::move(near));
+  }
+  for (std::size_t e = 0; e < at.effects.size(); ++e)
+    for (std::size_t j = 0; j < at.effects[e].q.size(); ++j) {
+      const auto& p = at.effects[e].hypothesis->parameters[j];
+      if (!fitted(p.kind)) continue;
+      Beside near{at, p.step, at.effects[e].hypothesis->friction};
+      double& value = near.model.effects[e].q[j];
+      if (value + near.step > p.highest) near.step = -near.step;
+      value += near.step;
+      all.push_back(std::move(near));
+    }
+  return all;
+}
+
 Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
+  const std::vector<Beside> beside = beside_of(at);
+  std::vector<InverseModel::Asked> refollowed{{&at.axis, &at.effects}};
+  for (const auto& one : beside)
+    if (one.refollow) refollowed.push_back({&one.model.axis, &one.model.effects});
+  const auto contacts = model_.contacts(refollowed);
+
   Fit fit;
   fit.model = at;
   fit.base = base_;
-  const auto contacts = model_.contacts(at.axis, at.effects);
-  fit.residual = model_.residual(at.axis, at.effects, contacts);
+  fit.residual = model_.residual(at.axis, at.effects, contacts.front());
   fit.white = whitened(at, fit.residual, whitening);
   fit.cost = fit.white.squaredNorm();
-
-  struct Unknown {
-    std::size_t effect, parameter;
-    bool base;
-  };
-  std::vector<Unknown> unknowns;
-  for (std::size_t i = 0; i < base_.size(); ++i) unknowns.push_back({0, i, true});
-  for (std::size_t e = 0; e < at.effects.size(); ++e)
-    for (std::size_t j = 0; j < at.effects[e].q.size(); ++j)
-      if (fitted(at.effects[e].hypothesis->parameters[j].kind)) unknowns.push_back({e, j, false});
-
-  fit.jacobian.resize(fit.white.size(), static_cast<Index>(unknowns.size()));
-  parallel_for(unknowns.size(), [&](std::size_t u) {
-    Candidate near = at;
-    bool refollow = false;
-    double step = 0.02;
-    if (unknowns[u].base) {
-      const auto& p = base_[unknowns[u].parameter];
-      const double value = value_of(p, at.axis), unit = tolerance(unknowns[u].parameter);
-      set_value(p, near.axis, value + step * unit);
-      step = (value_of(p, near.axis) - value) / unit;
-      if (step == 0.0) {
-        set_value(p, near.axis, value - 0.02 * unit);
-        step = (value_of(p, near.axis) - value) / unit;
-      }
-      refollow = p.moves_friction;
-    } else {
-      auto& effect = near.effects[unknowns[u].effect];
-      const auto& p = effect.hypothesis->parameters[unknowns[u].parameter];
-      step = effect.q[unknowns[u].parameter] + p.step > p.highest ? -p.step : p.step;
-      effect.q[unknowns[u].parameter] += step;
-      refollow = effect.hypothesis->friction;
-    }
-    const Vector r =
-        refollow ? model_.residual(near.axis, near.effects) : model_.residual(near.axis, near.effects, contacts);
-    fit.jacobian.col(static_cast<Index>(u)) =
-        step == 0.0 ? Vector::Zero(fit.white.size()) : Vector((fit.white - whitened(near, r, whitening)) / step);
+  std::vector<const std::vector<ContactForces>*> own;
+  auto next = contacts.begin() + 1;
+  for (const auto& one : beside) own.push_back(one.refollow ? &*next++ : &contacts.front());
+  fit.jacobian.resize(fit.white.size(), static_cast<Index>(beside.size()));
+  parallel_for(beside.size(), [&](std::size_t u) {
+    const auto& [near, step, refollow] = beside[u];
+    auto column = fit.jacobian.col(static_cast<Index>(u));
+    column.setZero();
+    if (step == 0.0) return;
+    column = (fit.white - whitened(near, model_.residual(near.axis, near.effects, *own[u]), whitening)) / step;
   });
 
-  Eigen::MatrixXd information = fit.jacobian.transpose() * fit.jacobian;
-  const Vector diagonal = information.diagonal();
-  for (Index i = 0; i < diagonal.size(); ++i) information(i, i) += 1e-12 * diagonal[i] + 1e-12;
-  fit.covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(diagonal.size(), diagonal.size()));
+  const Index unknowns = fit.jacobian.cols();
+  fit.information = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  fit.information.selfadjointView<Eigen::Lower>().rankUpdate(fit.jacobian.transpose());
+  fit.information.triangularView<Eigen::StrictlyUpper>() = fit.information.transpose();
+  Eigen::MatrixXd known = fit.information;
+  known.diagonal() += 1e-12 * known.diagonal() + Vector::Constant(unknowns, 1e-12);
+  fit.covariance = known.ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   return fit;
 }
 
@@ -132,7 +140,6 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
   constexpr double fast_share = 1e-3;  // steps are bounded, and from a far start a few do not arrive
   Fit best = linearised(start, whitening);
   for (int i = 0; i < longer * iterations; ++i) {
-    const Eigen::MatrixXd information = best.jacobian.transpose() * best.jacobian;
     const Vector slope = best.jacobian.transpose() * best.white;
     bool better = false;
     Candidate next;
@@ -143,8 +150,8 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
     // shorter along the same line first, since steps are bounded; then as Levenberg and Marquardt
     for (const auto [damping, length] :
          {Try{0.0, 1.0}, {0.0, 0.5}, {0.0, 0.2}, {1e-3, 1.0}, {3e-2, 1.0}, {0.3, 1.0}, {3.0, 1.0}}) {
-      Eigen::MatrixXd damped = information;
-      damped.diagonal() += (damping + 1e-12) * information.diagonal() + Vector::Constant(slope.size(), 1e-12);
+      Eigen::MatrixXd damped = best.information;
+      damped.diagonal() += (damping + 1e-12) * best.information.diagonal() + Vector::Constant(slope.size(), 1e-12);
       next = moved(best.model, length * damped.ldlt().solve(slope));
       cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
       better = cost < best.cost;

@@ -21,11 +21,12 @@ struct Candidate {
 
 struct Fit {
   Candidate model;
-  Vector residual;             ///< in the equations' units
-  Vector white;                ///< whitened residual, then the prior's
-  Eigen::MatrixXd jacobian;    ///< of `white` by the unknowns, negative: white ~ white0 - jacobian * change
-  Eigen::MatrixXd covariance;  ///< of the unknowns
-  double cost = 0.0;           ///< |white|^2
+  Vector residual;              ///< in the equations' units
+  Vector white;                 ///< whitened residual, then the prior's
+  Eigen::MatrixXd jacobian;     ///< of `white` by the unknowns, negative: white ~ white0 - jacobian * change
+  Eigen::MatrixXd information;  ///< jacobian' jacobian
+  Eigen::MatrixXd covariance;   ///< of the unknowns
+  double cost = 0.0;            ///< |white|^2
 
   [[nodiscard]] Index base_count() const { return static_cast<Index>(base.size()); }
   std::vector<BaseParameter> base;
@@ -56,6 +57,13 @@ class Fitter {
 
  private:
   [[nodiscard]] Vector whitened(const Candidate& at, const Vector& residual, const Whitening& whitening) const;
+  /// The model with one unknown a small step away, for differences.
+  struct Beside {
+    Candidate model;
+    double step = 0.0;      ///< base: in tolerances; 0: bounds leave no room
+    bool refollow = false;  ///< friction is another one
+  };
+  [[nodiscard]] std::vector<Beside> beside_of(const Candidate& at) const;
   [[nodiscard]] Candidate moved(const Candidate& from, const Vector& step) const;
 
   const InverseModel& model_;

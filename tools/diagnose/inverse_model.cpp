@@ -33,7 +33,8 @@ std::vector<Equation> equations_for(const Track& track) {
 
 Contribution contribution_of(const std::vector<Active>& effects, const View& view) {
   Contribution sum;
-  for (const auto& effect : effects) effect.hypothesis->apply(view, effect.q, sum);
+  for (const auto& effect : effects)
+    if (!effect.hypothesis->friction || effect.hypothesis->forces_too) effect.hypothesis->apply(view, effect.q, sum);
   return sum;
 }
 
@@ -76,46 +77,6 @@ InverseModel::InverseModel(std::vector<Track> tracks, const plant::AxisParameter
   find_settled();
 }
 
-std::vector<ContactForces> InverseModel::contacts(const plant::AxisParameters& axis,
-                                                  const std::vector<Active>& effects) const {
-  const auto model = plant::make_axis_model(axis);
-  const auto& both = model.contacts;
-  std::vector<ContactForces> forces;
-  bool scaled = false;
-  for (const auto& effect : effects) scaled = scaled || effect.hypothesis->friction;
-  for (std::size_t run = 0; run < tracks_.size(); ++run) {
-    const Track& track = tracks_[run];
-    Contribution factors;
-    if (scaled) {
-      const Baseline none;
-      std::vector<Active> scaling;
-      for (const auto& effect : effects)
-        if (effect.hypothesis->friction) scaling.push_back(effect);
-      factors = contribution_of(scaling, {track, axis, none});
-    }
-    ContactForces out{Vector::Zero(track.size), Vector::Zero(track.size)};
-    double screw_m = 0.0, guide_m = 0.0;
-    const double h = track.sample_s / path_substeps, per_h = 1.0 / h;
-    const bool apart = track.slip_m.size() > 0 && track.force_sensor_N.size() > 0;
-    for (Index k = 0; k < track.size; ++k) {
-      plant::FrictionScale<double> scaling;
-      if (factors.screw_sliding.size() > 0) scaling.screw_sliding = std::max(0.05, factors.screw_sliding[k]);
-      if (factors.screw_viscous.size() > 0) scaling.screw_viscous = std::max(0.05, factors.screw_viscous[k]);
-      for (Index i = k * path_substeps; i < (k + 1) * path_substeps; ++i) {
-        const auto along = [&](double v) { return plant::Sliding<double>{v < 0.0 ? -1.0 : 1.0, std::abs(v), h, per_h}; };
-        auto step = both.step(along(track.path_m_per_s[i]), screw_m, guide_m, scaling);
-        out.screw_N[k] += step.screw_force_N / path_substeps;
-        screw_m = step.screw_bristle_m;
-        if (apart) step = both.step(along(track.table_path_m_per_s[i]), screw_m, guide_m, scaling);
-        out.guide_N[k] += step.guide_force_N / path_substeps;
-        guide_m = step.guide_bristle_m;
-      }
-    }
-    forces.push_back(std::move(out));
-  }
-  return forces;
-}
-
 Baseline InverseModel::baseline(const plant::AxisParameters& axis, const ContactForces& contacts, std::size_t run) const {
   const Track& track = tracks_[run];
   const auto model = plant::make_axis_model(axis);
@@ -126,8 +87,7 @@ Baseline InverseModel::baseline(const plant::AxisParameters& axis, const Contact
     const double v = track.velocity_m_per_s[k];
     const bool forward = v > 0.0;
     const double coulomb = forward ? model.coulomb_pos_N : model.coulomb_neg_N;
-    motor[k] = coulomb * std::tanh(v / standstill_m_per_s) +
-               (forward ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m) * v;
+    motor[k] = coulomb * track.motor_direction[k] + (forward ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m) * v;
     viscous[k] = (forward ? axis.ball_screw.viscous_Ns_per_m.pos : axis.ball_screw.viscous_Ns_per_m.neg) * v;
     const auto& linear = electrical.electrical_linear_Ws_per_m;
     const auto& quadratic = electrical.electrical_quadratic_Ws2_per_m2;

@@ -57,7 +57,13 @@ class InverseModel {
   /// The sample at which a row stands.
   [[nodiscard]] Index sample_of(const Segment& segment, Index row) const;
 
-  /// Friction of both contacts along every run, under the effects' factors: the costly part of a residual.
+  /// One of several models that are asked for at once.
+  struct Asked {
+    const plant::AxisParameters* axis;
+    const std::vector<Active>* effects;
+  };
+  /// Friction of both contacts along every run, under the effects' factors: the costly part of a residual. By model.
+  [[nodiscard]] std::vector<std::vector<ContactForces>> contacts(const std::vector<Asked>& models) const;
   [[nodiscard]] std::vector<ContactForces> contacts(const plant::AxisParameters& axis,
                                                     const std::vector<Active>& effects) const;
   /// What else a model says along every run.

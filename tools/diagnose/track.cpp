@@ -139,6 +139,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   track.velocity_m_per_s = Vector::Zero(n);
   track.velocity_m_per_s.head(n - 1) = (track.position_m.tail(n - 1) - track.position_m.head(n - 1)) / h;
   track.centred_m_per_s = about_sample(track.velocity_m_per_s);
+  track.motor_direction = (track.velocity_m_per_s.array() / standstill_m_per_s).tanh();
   track.acceleration_m_per_s2 = second_difference(x, h);
   track.path_m_per_s = path_velocities(track.position_m, h);
   track.table_position_m = track.position_m;

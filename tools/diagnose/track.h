@@ -43,6 +43,7 @@ struct Track {
   Vector position_m;        ///< lightly smoothed
   Vector velocity_m_per_s;  ///< mean over the sample that follows
   Vector centred_m_per_s;   ///< velocity at the sample
+  Vector motor_direction;   ///< tanh(velocity / standstill): how much of the motor's Coulomb friction acts, and which way
   Vector acceleration_m_per_s2;
   Vector path_m_per_s;  ///< velocities of the sub-steps, path_substeps a sample
   /// The table's own motion: the linear scale's where there is one, otherwise the motor's.

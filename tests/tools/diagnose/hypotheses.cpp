@@ -162,6 +162,28 @@ TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
   }
 }
 
+// The forces do not ask a law that only scales friction: so it must not add any.
+TEST(LawsOfFriction, AddNoForceWhereTheySayTheyOnlyScale) {
+  const Track track = make_track(runs_of(plant::source_axis(), true, true).front(), plant::source_axis());
+  Baseline base;
+  base.screw_N = base.guide_N = base.motor_N = base.screw_viscous_N = Vector::Ones(track.size);
+  int asked = 0;
+  for (const auto& h : hypotheses()) {
+    if (!h.friction || h.forces_too) continue;
+    auto q = trials().at(h.id).start;
+    for (std::size_t i = 0; i < q.size(); ++i)
+      if (h.parameters[i].kind == Kind::amplitude) q[i] = h.parameters[i].step;
+    Contribution sum;
+    h.apply({track, plant::source_axis(), base}, q, sum);
+    EXPECT_GT(sum.screw_sliding.size() + sum.screw_viscous.size(), 0) << h.id;
+    for (const Vector* more : {&sum.drive_N, &sum.motor_N, &sum.screw_N, &sum.guide_N, &sum.slip_m, &sum.power_W,
+                               &sum.torque_sensor_N, &sum.force_sensor_N})
+      EXPECT_EQ(more->size(), 0) << h.id;
+    ++asked;
+  }
+  EXPECT_GE(asked, 5);
+}
+
 // After some turns the reading is off by more than the shaft moves in a sample: its own angle would misplace the mark.
 TEST(CountLoss, TheMarkIsPassedAtTheShaftsTrueAngle) {
   constexpr double counts = 400.0, angle_rad = 2.0;

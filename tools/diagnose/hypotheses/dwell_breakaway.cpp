@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plant/lanes.h"
 #include "tools/diagnose/hypotheses/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
 
@@ -15,9 +16,10 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   Vector factor(track.size);
   double age_s = 0.0;
   for (Index k = 0; k < track.size; ++k) {
-    const double worn = std::abs(track.velocity_m_per_s[k]) * track.sample_s / memory_distance_m, left = std::exp(-worn);
-    age_s = age_s * left + track.sample_s * (worn > 1e-9 ? (1.0 - left) / worn : 1.0);
-    factor[k] = 1.0 + q[0] * (1.0 - std::exp(-age_s / q[1]));
+    const double worn = std::abs(track.velocity_m_per_s[k]) * track.sample_s / memory_distance_m,
+                 left = plant::exp_of_minus(worn);
+    age_s = age_s * left + track.sample_s * (worn > 1e-3 ? (1.0 - left) / worn : 1.0 - worn * (0.5 - worn / 6.0));
+    factor[k] = 1.0 + q[0] * (1.0 - plant::exp_of_minus(age_s / q[1]));
   }
   scale(sum.screw_sliding, factor);
 }

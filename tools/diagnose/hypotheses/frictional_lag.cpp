@@ -59,7 +59,8 @@ Hypothesis frictional_lag() {
           .sentence = "friction follows speed with a lag of {time_constant_s} s",
 
           .confused_with = {"input_delay", "current_loop_lag"},
-          .friction = true};
+          .friction = true,
+          .forces_too = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -73,8 +73,16 @@ std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz) {
 void add_line(const Track& track, std::span<const double> q, Vector& force_N) {
   const std::size_t run = std::min<std::size_t>(track.run, line_runs - 1);
   if (q[2 * run] == 0.0 && q[2 * run + 1] == 0.0) return;
-  const Vector t = Vector::LinSpaced(track.size, 0.0, static_cast<double>(track.size - 1) * track.sample_s);
-  add(force_N, wave(t, 1.0, q[8], q[2 * run], q[2 * run + 1]));
+  constexpr Index renewed = 256;  // each turn from the one before it, so that there is no sine a sample
+  const double per_sample = 2.0 * std::numbers::pi * q[8] * track.sample_s;
+  const std::complex<double> turn = std::polar(1.0, per_sample), line = line_of_run(q, run);
+  std::complex<double> now;
+  Vector more(track.size);
+  for (Index k = 0; k < track.size; ++k) {
+    now = k % renewed == 0 ? line * std::polar(1.0, per_sample * static_cast<double>(k)) : now * turn;
+    more[k] = now.imag();
+  }
+  add(force_N, more);
 }
 
 std::complex<double> line_of_run(std::span<const double> q, std::size_t run) {

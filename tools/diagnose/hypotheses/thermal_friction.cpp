@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plant/lanes.h"
 #include "tools/diagnose/hypotheses/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
 
@@ -16,9 +17,9 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   for (Index k = 0; k < track.size; ++k) {
     const double v = track.velocity_m_per_s[k], speed = std::abs(v);
     const auto side = v > 0.0 ? &plant::Directional::pos : &plant::Directional::neg;
-    factor[k] = 1.0 - q[0] * (1.0 - std::exp(-work_J / q[1]));
-    const double sliding = screw.coulomb_N.*side +
-                           (screw.static_N.*side - screw.coulomb_N.*side) * std::exp(-speed / screw.stribeck_m_per_s.*side);
+    factor[k] = 1.0 - q[0] * (1.0 - plant::exp_of_minus(work_J / q[1]));
+    const double sliding = screw.coulomb_N.*side + (screw.static_N.*side - screw.coulomb_N.*side) *
+                                                       plant::exp_of_minus(speed / screw.stribeck_m_per_s.*side);
     work_J += (sliding + factor[k] * screw.viscous_Ns_per_m.*side * speed) * speed * track.sample_s;
   }
   scale(sum.screw_viscous, factor);

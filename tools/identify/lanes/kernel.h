@@ -6,6 +6,7 @@
 
 #include "controllers/cascade_law.h"
 #include "plant/axis_model.h"
+#include "tools/identify/lanes/follow_kernel.h"
 #include "tools/identify/lanes/inverse_kernel.h"
 #include "tools/identify/stand_in.h"
 
@@ -52,6 +53,7 @@ struct KernelEntry {
   std::size_t width;
   Kernel run;
   InverseKernel inverse;
+  FollowKernel follow;
 };
 
 [[nodiscard]] KernelEntry baseline_kernel() noexcept;
