@@ -12,6 +12,7 @@ namespace feedtwin::plant {
 struct Directional {
   double pos = 0.0;  ///< while the table moves in the positive direction
   double neg = 0.0;  ///< while it moves in the negative direction
+  bool operator==(const Directional&) const = default;
 };
 
 /// One LuGre friction contact, Eqs. 2-3. Forces act on the table; Stribeck exponent 1 as printed.
@@ -22,6 +23,7 @@ struct LugreParameters {
   Directional viscous_Ns_per_m;    ///< mu
   double stiffness_N_per_m = 0.0;  ///< sigma_0, bristle stiffness
   double damping_Ns_per_m = 0.0;   ///< sigma_1, bristle damping
+  bool operator==(const LugreParameters&) const = default;
 };
 
 /// Motor: rotor inertia, damping and Coulomb friction (Eqs. 1, 8), electrical loss (Eq. 7).
@@ -33,6 +35,7 @@ struct MotorParameters {
   Directional electrical_linear_Ws_per_m;       ///< k_e1
   Directional electrical_quadratic_Ws2_per_m2;  ///< k_e2
   double rated_torque_Nm = 1.27;                ///< full scale of relative torque commands (CiA 402, Modbus)
+  bool operator==(const MotorParameters&) const = default;
 };
 
 /// Axis-level numbers: transmission, travel, limits, encoder.
@@ -44,6 +47,7 @@ struct TransmissionParameters {
   double encoder_counts_per_rev = 65536.0;
   double end_stop_stiffness_N_per_m = 2.0e7;
   double end_stop_damping_Ns_per_m = 2.0e4;
+  bool operator==(const TransmissionParameters&) const = default;
 };
 
 /// A whole axis: Eq. 1.
@@ -56,6 +60,7 @@ struct AxisParameters {
   LugreParameters guide;
   double power_meter_window_s = 0.1;   ///< the source's meter: 10 readings a second
   std::vector<EffectSetting> effects;  ///< physics beyond Eq. 1 that is switched on (plant/effects/registry.h)
+  bool operator==(const AxisParameters&) const = default;
 };
 
 }  // namespace feedtwin::plant

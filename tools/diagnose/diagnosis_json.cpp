@@ -62,7 +62,8 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   out["alternatives"] = json::array();
   for (const auto& fault : diagnosis.setup) {
     json parameters = json::object();
-    for (const auto& [name, value] : fault.parameters) parameters[name] = {{"value", value}, {"ci90", {value, value}}};
+    for (const auto& [name, value, half] : fault.parameters)
+      parameters[name] = {{"value", value}, {"ci90", {value - half, value + half}}};
     out["effects"].push_back({{"id", fault.id},
                               {"component", fault.component},
                               {"sentence", fault.sentence},

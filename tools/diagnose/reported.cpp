@@ -6,11 +6,11 @@
 #include "tools/diagnose/hypotheses/shapes.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/sentence.h"
+#include "tools/intervals.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double z90 = 1.645;
 /// Friction's laws are never quite the machine's, and that is in no residual's scatter: of 174 numbers in made cases (two
 /// sets that were looked at before) intervals of 90 % by the scatter alone held 0.75, twice as wide ones 0.86.
 constexpr double for_the_laws = 2.0;
@@ -67,7 +67,7 @@ std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Ei
     }
     const double sigma = std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
     if (sigma > 1e3 * (std::abs(now[i].value) + 1e-9)) continue;  // of a channel that is not there
-    const double half = for_the_laws * z90 * sigma;
+    const double half = for_the_laws * normal_90 * sigma;
     out.push_back({now[i].name, {now[i].value, now[i].value - half, now[i].value + half}});
   }
   return out;
@@ -108,7 +108,7 @@ std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, con
     const double sigma = in_tolerances * fitter.tolerance(i);
     const bool told_by_data = in_tolerances < 0.5;
     if (told_by_data && std::abs(now - was) > 3.0 * sigma && std::abs(now - was) > 2e-3 * std::abs(was))
-      out.push_back({std::string(parameter.entry->key), was, {now, now - z90 * sigma, now + z90 * sigma}});
+      out.push_back({std::string(parameter.entry->key), was, {now, now - normal_90 * sigma, now + normal_90 * sigma}});
   }
   return out;
 }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "tools/intervals.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -21,17 +24,36 @@ double work_share(const std::vector<Recording>& runs, std::string_view force, st
   return magnitude > 0.0 ? work / magnitude : 0.0;
 }
 
-/// Slope of one position over the other.
-double ratio(const std::vector<Recording>& runs, std::string_view of, std::string_view to) {
-  double product = 0.0, square = 0.0;
+struct Slope {
+  double value = 1.0, sigma = 0.0;
+};
+
+/// Slope of one position over the other; its deviation from leaving out a second at a time (jackknife).
+Slope slope(const std::vector<Recording>& runs, std::string_view of, std::string_view to) {
+  constexpr std::size_t apart = 8;
+  struct Sums {
+    double product = 0.0, square = 0.0;
+  };
+  std::vector<Sums> seconds;
+  Sums all;
   for (const auto& run : runs) {
     const auto y = run.at(of), x = run.at(to);
-    for (std::size_t k = 8; k < y.size() && k < x.size(); ++k) {
-      product += (y[k] - y[k - 8]) * (x[k] - x[k - 8]);
-      square += (x[k] - x[k - 8]) * (x[k] - x[k - 8]);
+    const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(1.0 / run.sample_s)));
+    for (std::size_t k = apart; k < y.size() && k < x.size(); ++k) {
+      if ((k - apart) % rows == 0) seconds.emplace_back();
+      const double moved = x[k] - x[k - apart], shown = y[k] - y[k - apart];
+      for (auto* sums : {&all, &seconds.back()}) sums->product += shown * moved, sums->square += moved * moved;
     }
   }
-  return square > 0.0 ? product / square : 1.0;
+  if (!(all.square > 0.0)) return {};
+  Slope found{all.product / all.square, 0.0};
+  double squares = 0.0;
+  for (const auto& one : seconds)
+    if (all.square > one.square)
+      squares += std::pow((all.product - one.product) / (all.square - one.square) - found.value, 2);
+  const auto count = static_cast<double>(seconds.size());
+  found.sigma = std::sqrt(squares * (count - 1.0) / count);
+  return found;
 }
 
 void multiply(Case& data, std::string_view name, double factor) {
@@ -46,7 +68,7 @@ SetupFault reversed(std::string_view name, const char* parameter) {
           "set_up",
           std::string(name),
           fmt::format("{} is wired in reverse: the work that it would do has the wrong sign.", name),
-          {{parameter, -1.0}}};
+          {{parameter, -1.0, 0.0}}};
 }
 
 }  // namespace
@@ -60,7 +82,7 @@ std::vector<SetupFault> mend_setup(Case& data) {
     multiply(data, name, -1.0);
   };
   const bool scale = has(channel::scale_position_m);
-  if (scale && ratio(data.fit, channel::scale_position_m, channel::position_m) < 0.0) {
+  if (scale && slope(data.fit, channel::scale_position_m, channel::position_m).value < 0.0) {
     // whichever of the two agrees with the torque is right
     if (work_share(data.fit, channel::torque_cmd_Nm, channel::scale_position_m) > 0.0)
       mend(channel::position_m, "encoder_sign");
@@ -73,14 +95,14 @@ std::vector<SetupFault> mend_setup(Case& data) {
     if (has(name) && work_share(data.fit, name, channel::position_m) < clear) mend(name, parameter);
 
   if (scale) {
-    const double factor = ratio(data.fit, channel::scale_position_m, channel::position_m);
+    const auto [factor, sigma] = slope(data.fit, channel::scale_position_m, channel::position_m);
     if (std::abs(factor - 1.0) > 0.01) {
       faults.push_back(
           {"wrong_lead",
            "set_up",
            std::string(channel::scale_position_m),
            fmt::format("the lead in the configuration is wrong: the table travels {:.4f} of what the encoder says.", factor),
-           {{"factor", factor}}});
+           {{"factor", factor, normal_90 * sigma}}});
       data.axis.axis.lead_m *= factor;
       multiply(data, channel::position_m, factor);
     }
@@ -95,7 +117,11 @@ std::vector<SetupFault> check_meter(const Track& track, plant::AxisParameters& a
   const std::string sentence =
       fmt::format("the power meter averages over {:.3g} s, not over {:.3g} s as configured.", shown_s, nominal_s);
   nominal_s = shown_s;
-  return {{"power_meter_window", "power", std::string(channel::power_W), sentence, {{"window_s", shown_s}}}};
+  return {{"power_meter_window",
+           "power",
+           std::string(channel::power_W),
+           sentence,
+           {{"window_s", shown_s, 0.5 * track.sample_s}}}};
 }
 
 }  // namespace feedtwin::tools::diagnosis

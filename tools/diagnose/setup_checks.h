@@ -3,7 +3,6 @@
 // screw's.
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/diagnose/track.h"
@@ -13,7 +12,11 @@ namespace feedtwin::tools::diagnosis {
 
 struct SetupFault {
   std::string id, component, channel, sentence;
-  std::vector<std::pair<std::string, double>> parameters;  ///< named as in the plant's registry
+  struct Number {
+    std::string name;  ///< as in the plant's registry
+    double value = 0.0, half_width = 0.0;
+  };
+  std::vector<Number> parameters;
 };
 
 /// Finds the faults and takes them out of the recordings and the axis, so that the rest of the diagnosis sees them no more.

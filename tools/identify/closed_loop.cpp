@@ -75,7 +75,7 @@ lanes::RecordView ClosedLoopRun::view() const noexcept {
   return view;
 }
 
-Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m) {
+Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m, bool sensors) {
   const auto view = run.view();
   const double transmission = axis.model().transmission_rad_per_m;
   place_as_shown(axis, view.position_m[0], view.start_velocity_m_per_s);
@@ -83,10 +83,9 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
   controllers::CascadeLaw<double> cascade(view.gains);
   cascade.reset(view.position_m[0] - position_offset_m);
   Simulated out;
-  for (auto* channel : {&out.torque_Nm, &out.position_m, &out.torque_sensor_Nm, &out.force_sensor_N, &out.power_W,
-                        &out.scale_position_m, &out.instant_power_W}) {
+  for (auto* channel : {&out.torque_Nm, &out.position_m, &out.power_W, &out.scale_position_m, &out.instant_power_W})
     channel->resize(view.samples);
-  }
+  for (auto* channel : {&out.torque_sensor_Nm, &out.force_sensor_N}) channel->resize(sensors ? view.samples : 0);
   for (std::size_t i = 0; i < view.samples; ++i) {
     const double shown_m = axis.shown_position_m() - position_offset_m;
     out.position_m[i] = shown_m;
@@ -95,9 +94,11 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
                            ? cascade.torque_Nm(view.reference[i], shown_m, view.tick_s)
                            : view.torque_Nm[i] + stand_in.correction_N(view.position_m[i] - shown_m) / transmission;
     const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i]};
-    const auto forces = axis.force_sensors(command);
-    out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;
-    out.force_sensor_N[i] = forces.force_sensor_N;
+    if (sensors) {
+      const auto forces = axis.force_sensors(command);
+      out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;
+      out.force_sensor_N[i] = forces.force_sensor_N;
+    }
     const double start_m = axis.signals().position_m, start_m_per_s = axis.signals().velocity_m_per_s;
     const auto& after = axis.step(command, view.tick_s);
     out.power_W[i] = after.power_W;

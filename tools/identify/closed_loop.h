@@ -46,8 +46,9 @@ using Simulated = lanes::CandidateResult;
 [[nodiscard]] plant::AxisParameters without_stops(plant::AxisParameters parameters);
 
 /// Any axis, with whatever effects it has, one at a time. The axis is placed at the run's start first.
-[[nodiscard]] Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis,
-                                             double position_offset_m = 0.0);
+/// @param sensors whether torque and force sensor are wanted too: they cost a quarter more; empty otherwise
+[[nodiscard]] Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m = 0.0,
+                                             bool sensors = true);
 
 /// Many parameter sets of the paper's model at once (lanes/dispatch.h).
 struct CandidateAxis {

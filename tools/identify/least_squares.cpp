@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace feedtwin::tools {
 namespace {
@@ -76,52 +77,69 @@ VectorXd damped_point(const LeastSquaresProblem& problem, const LeastSquaresSolu
   return point;
 }
 
+/// Slopes under which the step would have ended where it did, and no others than needed, all unknowns by their own measure.
+void correct_slopes(LeastSquaresSolution& at, const VectorXd& moved, const VectorXd& residuals) {
+  const VectorXd measured = at.jacobian.colwise().squaredNorm().transpose().cwiseProduct(moved);
+  const double length = measured.dot(moved);
+  if (length > 0.0) at.jacobian += (residuals - at.residuals - at.jacobian * moved) * (measured / length).transpose();
+}
+
+/// The best of the steps that one batch tries at once.
+struct Step {
+  VectorXd point, residuals;
+  double fall = 0.0, factor = 0.0;  ///< of the cost; on the damping
+};
+
+/// With fresh slopes shorter steps are tried as long as none goes down; `damping` is what it took.
+Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, bool fresh, double& damping) {
+  constexpr double strongest_damping = 1e6;  // a step of a millionth of Newton's: there is no way down
+  constexpr std::array many{0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4};
+  constexpr std::array few{0.0, 1.0, 30.0, 1e3};
+  const std::span<const double> factors =
+      problem.kept_steps > 0 ? std::span<const double>(few) : std::span<const double>(many);
+  MatrixXd normal = MatrixXd::Zero(at.point.size(), at.point.size());
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(at.jacobian.transpose());
+  normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
+  const VectorXd gradient = at.jacobian.transpose() * at.residuals;
+  MatrixXd points(at.point.size(), static_cast<Index>(factors.size()));
+  for (;;) {
+    for (Index i = 0; i < points.cols(); ++i)
+      points.col(i) = damped_point(problem, at, normal, gradient, damping * factors[static_cast<std::size_t>(i)]);
+    const MatrixXd residuals = problem.residuals(points);
+    Index best = 0;
+    for (Index i = 1; i < points.cols(); ++i)
+      if (cost_of(residuals.col(i)) < cost_of(residuals.col(best))) best = i;
+    const double fall = at.cost - cost_of(residuals.col(best));
+    if (fall > 0.0 || !fresh || damping * factors.back() >= strongest_damping)
+      return {points.col(best), residuals.col(best), fall, factors[static_cast<std::size_t>(best)]};
+    damping = std::max(damping, 1e-4) * factors.back();  // no step that bold goes down: shorter ones
+  }
+}
+
 }  // namespace
 
 LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
-  // the factors on the damping that one batch tries at once
-  constexpr double strongest_damping = 1e6;  // a step of a millionth of Newton's: there is no way down
-  constexpr std::array trials{0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4};
+  const bool keeps = problem.kept_steps > 0;
   LeastSquaresSolution at;
   at.point = problem.start.cwiseMax(problem.lowest).cwiseMin(problem.highest);
   double damping = 1e-2;
   for (; at.iterations < problem.most_iterations; ++at.iterations) {
     linearise(problem, at);
-    MatrixXd normal = MatrixXd::Zero(at.point.size(), at.point.size());
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(at.jacobian.transpose());
-    normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
-    const VectorXd gradient = at.jacobian.transpose() * at.residuals;
-    MatrixXd points(at.point.size(), static_cast<Index>(trials.size()));
-    Index best = 0;
-    double fall = 0.0;
-    VectorXd best_residuals;
-    for (;;) {
-      for (Index i = 0; i < points.cols(); ++i) {
-        points.col(i) = damped_point(problem, at, normal, gradient, damping * trials[static_cast<std::size_t>(i)]);
-      }
-      const MatrixXd residuals = problem.residuals(points);
-      best = 0;
-      for (Index i = 1; i < points.cols(); ++i) {
-        if (cost_of(residuals.col(i)) < cost_of(residuals.col(best))) best = i;
-      }
-      fall = at.cost - cost_of(residuals.col(best));
-      best_residuals = residuals.col(best);
-      if (fall > 0.0 || damping * trials.back() >= strongest_damping) break;
-      damping = std::max(damping, 1e-4) * trials.back();  // no step that bold goes down: shorter ones
+    for (int kept = 0; kept <= problem.kept_steps; ++kept) {
+      const double least = std::max(problem.least_fall, problem.cost_tolerance * at.cost);
+      const Step step = best_step(problem, at, kept == 0, damping);
+      if (kept == 0) at.converged = !(step.fall > least);
+      if (step.fall <= 0.0) break;
+      if (keeps) correct_slopes(at, step.point - at.point, step.residuals);
+      damping = std::clamp(damping * std::max(step.factor, 1e-3), 1e-3, 1e6);
+      at.point = step.point;
+      at.residuals = step.residuals;
+      at.cost = cost_of(step.residuals);
+      if (!(step.fall > least)) break;
     }
-    if (!(fall > problem.cost_tolerance * at.cost)) {
-      at.converged = true;
-      if (fall <= 0.0) return at;
-    }
-    at.point = points.col(best);
-    damping = std::clamp(damping * std::max(trials[static_cast<std::size_t>(best)], 1e-3), 1e-3, 1e6);
-    if (at.converged) {  // a step of no consequence: the slopes stay
-      at.residuals = best_residuals;
-      at.cost = cost_of(best_residuals);
-      return at;
-    }
+    if (at.converged) return at;  // a step of no consequence: the slopes stay
   }
-  linearise(problem, at);
+  if (!keeps) linearise(problem, at);
   return at;
 }
 

@@ -17,12 +17,16 @@ struct LeastSquaresProblem {
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd& points)> residuals;
   int most_iterations = 30;
   double cost_tolerance = 1e-7;  ///< relative fall of the cost below which the search ends
+  double least_fall = 0.0;       ///< likewise, of the cost itself
+  /// Further steps on the same slopes, corrected by what each step saw (Broyden 1965), where slopes cost many simulations;
+  /// then few lengths of a step are tried at once rather than many.
+  int kept_steps = 0;
 };
 
 struct LeastSquaresSolution {
   Eigen::VectorXd point;
   Eigen::VectorXd residuals;
-  Eigen::MatrixXd jacobian;  ///< at the point, or one converged step before it
+  Eigen::MatrixXd jacobian;  ///< at the point, or one converged step before it; kept steps correct it
   double cost = 0.0;         ///< half the sum of squares
   int iterations = 0;
   bool converged = false;

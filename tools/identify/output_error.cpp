@@ -10,6 +10,7 @@
 #include "tools/identify/least_squares.h"
 #include "tools/identify/residual_stack.h"
 #include "tools/identify/rounding_effect.h"
+#include "tools/intervals.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -18,7 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double normal_90 = 1.6448536269514722;               // half-width of a 90 % interval in deviations
 constexpr double difference_step = 1e-4, largest_step = 0.03;  // of a parameter's scale
 constexpr double step_deviations = 2.0;                        // of an unknown alone, over which differences are taken
 
@@ -61,7 +61,8 @@ void linearise_both_ways(const LeastSquaresProblem& problem, LeastSquaresSolutio
   }
 }
 
-LeastSquaresProblem problem_for(const std::vector<FitParameter>& parameters, ResidualStack& stack, int most_iterations) {
+LeastSquaresProblem problem_for(const std::vector<FitParameter>& parameters, ResidualStack& stack,
+                                const OutputErrorSettings& settings) {
   const auto n = static_cast<Index>(parameters.size());
   LeastSquaresProblem problem;
   for (auto* vector : {&problem.start, &problem.lowest, &problem.highest, &problem.step}) vector->resize(n);
@@ -73,7 +74,9 @@ LeastSquaresProblem problem_for(const std::vector<FitParameter>& parameters, Res
     problem.step[i] = difference_step * p.scale;
   }
   problem.residuals = [&stack](const MatrixXd& points) { return stack(points); };
-  problem.most_iterations = most_iterations;
+  problem.most_iterations = settings.most_iterations;
+  problem.kept_steps = settings.kept_steps;
+  problem.least_fall = settings.least_fall;
   return problem;
 }
 
@@ -88,7 +91,7 @@ VectorXd OutputErrorFit::point() const {
 OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const std::vector<FitParameter>& parameters,
                                 const BatchSimulator& simulate, const OutputErrorSettings& settings) {
   ResidualStack stack(runs, parameters, simulate, settings);
-  LeastSquaresProblem problem = problem_for(parameters, stack, settings.most_iterations);
+  LeastSquaresProblem problem = problem_for(parameters, stack, settings);
   LeastSquaresSolution at;
   for (int round = 0; round < settings.rounds; ++round) {
     stack.weigh(problem.start, round > 0 || settings.coloured_from_start);
@@ -126,7 +129,7 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
 MatrixXd first_fits(const std::vector<ClosedLoopRun>& runs, const std::vector<FitParameter>& parameters,
                     const BatchSimulator& simulate, const MatrixXd& starts, const OutputErrorSettings& settings) {
   ResidualStack stack(runs, parameters, simulate, settings);
-  LeastSquaresProblem problem = problem_for(parameters, stack, settings.most_iterations);
+  LeastSquaresProblem problem = problem_for(parameters, stack, settings);
   MatrixXd ends(starts.rows(), starts.cols());
   for (Index i = 0; i < starts.cols(); ++i) {
     problem.start = starts.col(i);

@@ -41,7 +41,9 @@ struct OutputErrorSettings {
   bool coloured_from_start = false;  ///< else the first round takes the residuals for white
   bool intervals = true;             ///< else the covariance is left out, and its simulations with it
   int most_iterations = 25;
-  const Ranks* ranks = nullptr;                           ///< who shares the simulations; nullptr: nobody
+  int kept_steps = 0;            ///< for simulators without lanes; this and the next: see LeastSquaresProblem
+  double least_fall = 0.0;       ///< of the cost, in nats
+  const Ranks* ranks = nullptr;  ///< who shares the simulations; nullptr: nobody
   std::function<void(const std::string& line)> progress;  ///< told of every round; may be empty
 };
 

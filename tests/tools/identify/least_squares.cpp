@@ -103,6 +103,49 @@ TEST(LeastSquares, AvoidsPointsWithoutAValue) {
   EXPECT_NEAR(solve_least_squares(problem).point[0], 1.0, 1e-4);
 }
 
+/// Forces of springs that stiffen: twenty unknowns that no single linear step finds.
+LeastSquaresProblem stiffening_springs(std::mt19937_64& random) {
+  auto problem = within(20, -3.0, 3.0);
+  problem.residuals = [a = random_matrix(random, 200, 20),
+                       noise = VectorXd(random_matrix(random, 200, 1))](const auto& points) {
+    const Eigen::ArrayXXd stretched = (a * points).colwise() + 2.0 * a.col(0);
+    return MatrixXd((stretched + 0.1 * stretched.cube()).matrix().colwise() - noise);
+  };
+  return problem;
+}
+
+// Where slopes cost many simulations, and a step few: further with the same number of slopes, and to the same minimum.
+TEST(LeastSquares, KeptStepsComeFurtherOnTheSameSlopes) {
+  std::mt19937_64 random(73);
+  for (int round = 0; round < 20; ++round) {
+    auto problem = stiffening_springs(random);
+    const auto full = solve_least_squares(problem);
+    problem.most_iterations = 2;
+    const auto short_of = solve_least_squares(problem);
+    problem.kept_steps = 2;
+    const auto further = solve_least_squares(problem);
+    problem.most_iterations = 30;
+    const auto kept = solve_least_squares(problem);
+    EXPECT_LT(further.cost - full.cost, 0.5 * (short_of.cost - full.cost)) << round;
+    EXPECT_TRUE(kept.converged) << round;
+    EXPECT_NEAR(kept.cost, full.cost, 1e-5 * full.cost) << round;
+  }
+}
+
+// A cost in nats: what brings less than is asked is not waited for.
+TEST(LeastSquares, EndsWhereAStepIsWorthLessThanAsked) {
+  std::mt19937_64 random(74);
+  for (int round = 0; round < 20; ++round) {
+    auto problem = stiffening_springs(random);
+    const auto fine = solve_least_squares(problem);
+    problem.least_fall = 0.02 * fine.cost;
+    const auto coarse = solve_least_squares(problem);
+    EXPECT_TRUE(fine.converged && coarse.converged) << round;
+    EXPECT_LT(coarse.cost, fine.cost + problem.least_fall) << round;
+    EXPECT_LT(coarse.iterations, fine.iterations) << round;
+  }
+}
+
 TEST(LeastSquares, SaysWhenItRanOutOfIterations) {
   auto problem = within(1, -1e9, 1e9);
   problem.start << 1e6;

@@ -31,7 +31,8 @@ bool can_be_named(const Active& active, const plant::AxisParameters& axis) {
 Arbiter::Ruling Arbiter::rule(const Fit& fit) const {
   PolishSettings settings;
   settings.rounds = 1;
-  settings.most_iterations = 4;
+  settings.most_iterations = 3;
+  settings.least_fall_nats = 2.0;
   settings.coloured_from_start = true;
   settings.intervals = false;
   Ruling ruling{fit, polish(forward_, fitter_, fit.model, settings).model, {}, 0.0};

@@ -89,15 +89,24 @@ ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case&
 
 Simulated ForwardModel::simulated(const ClosedLoopRun& run, const plant::AxisParameters& parameters) const {
   plant::FeedAxis axis(without_stops(parameters));
-  Simulated made = simulate_closed_loop(run, axis);
+  const auto& recording = run.recording();
+  const bool sensors = recording.has(channel::torque_sensor_Nm) || recording.has(channel::force_sensor_N);
+  Simulated made = simulate_closed_loop(run, axis, 0.0, sensors);
   if (meter_.sampled) made.power_W.swap(made.instant_power_W);
   return made;
 }
 
 std::vector<Simulated> ForwardModel::simulate(const ClosedLoopRun& run,
                                               const std::vector<plant::AxisParameters>& axes) const {
+  std::vector<std::size_t> like(axes.size()), different;  // a number of another run's changes nothing in this one
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    like[i] = static_cast<std::size_t>(std::ranges::find(axes, axes[i]) - axes.begin());
+    if (like[i] == i) different.push_back(i);
+  }
   std::vector<Simulated> all(axes.size());
-  parallel_for(axes.size(), [&](std::size_t i) { all[i] = simulated(run, axes[i]); });
+  parallel_for(different.size(), [&](std::size_t i) { all[different[i]] = simulated(run, axes[different[i]]); });
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (like[i] != i) all[i] = all[like[i]];
   return all;
 }
 

@@ -54,9 +54,6 @@ Candidate at(const Fitter& fitter, const Candidate& start, const Eigen::Ref<cons
   return candidate;
 }
 
-/// What the engine's own time step leaves of a number, measured where the truth is known (practice cases: 0.02 to 0.06 %).
-constexpr double step_error = 5e-4;
-
 void add_step_error(const Fitter& fitter, Polished& polished) {
   Index next = static_cast<Index>(fitter.base().size());
   for (const auto& effect : polished.model.effects)
@@ -99,6 +96,8 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   output_error.most_iterations = settings.most_iterations;
   output_error.coloured_from_start = settings.coloured_from_start;
   output_error.intervals = settings.intervals;
+  output_error.kept_steps = 2;
+  output_error.least_fall = settings.least_fall_nats;
   const auto fit = fit_output_error(forward.runs(), unknowns, simulator, output_error);
   Polished polished{at(fitter, start, fit.point()), {}, fit.cost};
   const auto shared = shared_unknowns(fitter, start);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/polish.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -53,7 +54,7 @@ Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance, const E
       if (covariance(at, at) > std::max(variance, std::pow(untold * effect.q[j], 2))) {
         covariance.row(at).setZero();
         covariance.col(at).setZero();
-        covariance(at, at) = variance;
+        covariance(at, at) = variance + std::pow(step_error * effect.q[j], 2);
       }
       ++at;
     }

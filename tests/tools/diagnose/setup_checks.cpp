@@ -1,0 +1,110 @@
+// Wires and typos: found, mended, and known to the width that is said.
+
+#include "tools/diagnose/setup_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/support/made_case.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+using tools::Case;
+
+Case recorded_with(const plant::AxisParameters& truth) {
+  Case data;
+  data.axis = plant::source_axis();
+  data.fit = {tests::make_recording(truth, {.motion = "sine", .duration_s = 4.0, .sensors = true, .scale_at_table = true})};
+  return data;
+}
+
+/// The encoder counts turns; the configuration makes a length of them.
+Case with_wrong_lead(double factor) {
+  auto data = recorded_with(plant::source_axis());
+  for (double& x : data.fit[0].channels.at("position_m")) x /= factor;
+  data.axis.axis.lead_m /= factor;
+  return data;
+}
+
+double value_of_lead(Case data) {
+  return mend_setup(data)[0].parameters[0].value;
+}
+
+TEST(SetupChecks, FindNothingWhereNothingIs) {
+  Case data = recorded_with(plant::source_axis());
+  EXPECT_TRUE(mend_setup(data).empty());
+}
+
+TEST(SetupChecks, AWrongLeadIsWithinItsIntervalAndMended) {
+  for (const double factor : {2.0, 0.5, 1.27}) {
+    Case data = with_wrong_lead(factor);
+    const auto faults = mend_setup(data);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].id, "wrong_lead");
+    const auto& number = faults[0].parameters.at(0);
+    EXPECT_NEAR(number.value, factor, 3.0 * number.half_width) << factor;
+    EXPECT_GT(number.half_width, 0.0);
+    EXPECT_LT(number.half_width, 1e-4 * factor);
+    EXPECT_NEAR(data.axis.axis.lead_m, plant::source_axis().axis.lead_m, 1e-4 * data.axis.axis.lead_m);
+  }
+}
+
+// A lead that is off by a ten-thousandth here and there is the screw's, not a typo: the interval covers what seconds differ
+// by.
+TEST(SetupChecks, TheIntervalOfAWrongLeadIsWiderWhereTheSlopeVaries) {
+  Case even = with_wrong_lead(2.0), wavy = with_wrong_lead(2.0);
+  auto& scale = wavy.fit[0].channels.at("scale_position_m");
+  for (double& x : scale) x += 2e-5 * std::sin(2.0 * std::numbers::pi * x / 0.005);
+  EXPECT_GT(mend_setup(wavy)[0].parameters[0].half_width, 3.0 * mend_setup(even)[0].parameters[0].half_width);
+}
+
+TEST(SetupChecks, TheIntervalOfAWrongLeadCoversAsOftenAsItSays) {
+  const Case even = with_wrong_lead(2.0);
+  const double truth = value_of_lead(even);
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> unit;
+  constexpr int repeats = 200;
+  int covered = 0;
+  for (int i = 0; i < repeats; ++i) {
+    Case data = even;
+    double wander = 0.0;  // slower than the differences that the slope is taken from
+    for (double& x : data.fit[0].channels.at("scale_position_m")) x += wander = 0.98 * wander + 1e-6 * unit(random);
+    const auto number = mend_setup(data)[0].parameters[0];
+    covered += std::abs(number.value - truth) < number.half_width;
+  }
+  EXPECT_GT(covered, 0.75 * repeats);  // four seconds: a deviation from four numbers
+  EXPECT_LT(covered, 0.97 * repeats);
+}
+
+TEST(SetupChecks, AReversedSignalIsFoundAndTurned) {
+  for (const char* name : {"torque_cmd_Nm", "torque_sensor_Nm", "force_sensor_N", "scale_position_m"}) {
+    Case data = recorded_with(plant::source_axis());
+    const auto right = data.fit[0].channels.at(name);
+    for (double& value : data.fit[0].channels.at(name)) value = -value;
+    const auto faults = mend_setup(data);
+    ASSERT_EQ(faults.size(), 1U) << name;
+    EXPECT_EQ(faults[0].id, "wrong_sign");
+    EXPECT_EQ(faults[0].channel, name);
+    EXPECT_EQ(data.fit[0].channels.at(name), right);
+  }
+}
+
+TEST(SetupChecks, AMetersWindowIsKnownToHalfASample) {
+  auto axis = plant::source_axis();
+  Track track;
+  track.sample_s = 1e-3;
+  track.meter = {.length = 50, .held = true, .late = true, .starts = {}, .power_W = {}};
+  const auto faults = check_meter(track, axis);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NEAR(faults[0].parameters[0].value, 0.05, 1e-12);
+  EXPECT_EQ(faults[0].parameters[0].half_width, 0.5e-3);
+  EXPECT_NEAR(axis.power_meter_window_s, 0.05, 1e-12);
+}
+
+}  // namespace
+}  // namespace feedtwin
