@@ -8,20 +8,22 @@
 namespace feedtwin::tools {
 namespace {
 
-constexpr int laws = 7;  // idle, |v| and v^2 by direction, copper, work
+constexpr int laws = 8;  // idle, |v| and v^2 by direction, copper, work, work given back
 using Laws = Eigen::Array<double, laws, 1>;
 
-/// What a tick's power may be made of (Eqs. 7 and 11, and the copper loss that they leave out).
+/// What a tick's power may be made of (Eqs. 7 and 11, the copper loss that they leave out, and last the work given back that
+/// a drive may burn).
 Laws laws_of(double torque_Nm, double v, double rad_per_m) {
-  const double forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth;
+  const double forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth, work_W = torque_Nm * rad_per_m * v;
   Laws all;
-  all << 1.0, forth * std::abs(v), back * std::abs(v), forth * v * v, back * v * v, torque_Nm * torque_Nm,
-      torque_Nm * rad_per_m * v;
+  all << 1.0, forth * std::abs(v), back * std::abs(v), forth * v * v, back * v * v, torque_Nm * torque_Nm, work_W,
+      std::max(0.0, -work_W);
   return all;
 }
 
-/// Sum of squares of what these laws leave over of the readings, however large each is; too few readings: nothing.
-double unexplained(std::span<const Recording> recordings, std::size_t delay, const plant::AxisParameters& axis) {
+/// Sum of squares of what the first `asked` laws leave over of the readings, however large each is; too few readings:
+/// nothing.
+double unexplained(std::span<const Recording> recordings, std::size_t delay, int asked, const plant::AxisParameters& axis) {
   const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
   Eigen::Matrix<double, laws, laws> normal = Eigen::Matrix<double, laws, laws>::Zero();
   Eigen::Matrix<double, laws, 1> right = Eigen::Matrix<double, laws, 1>::Zero();
@@ -39,6 +41,7 @@ double unexplained(std::span<const Recording> recordings, std::size_t delay, con
       Laws sum = Laws::Zero();
       for (std::size_t k = meter.first_tick(row); k < meter.first_tick(row) + meter.window; ++k)
         sum += laws_of(command[k], (position[k + 1] - position[k]) / recording.sample_s, rad_per_m);
+      sum.tail(laws - asked).setZero();
       const auto mean = sum.matrix() / static_cast<double>(meter.window);
       normal += mean * mean.transpose();
       right += mean * power_W[row];
@@ -95,7 +98,9 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
 
 std::size_t meter_delay(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
   constexpr double clearly = 0.6;  // of the squares; a lagging current loop alone makes 0.66 (practice case p08)
-  return unexplained(recordings, 1, axis) < clearly * unexplained(recordings, 0, axis) ? 1 : 0;
+  for (const int asked : {laws - 1, laws})
+    if (unexplained(recordings, 1, asked, axis) < clearly * unexplained(recordings, 0, asked, axis)) return 1;
+  return 0;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

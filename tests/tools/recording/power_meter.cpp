@@ -21,14 +21,39 @@ TEST(MeterDelay, OfThePlantsMeterIsNone) {
   EXPECT_EQ(meter_delay(runs, plant::source_axis()), 0U);
 }
 
-TEST(MeterDelay, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
-  auto runs = runs_of_the_plant();
+void read_a_row_later(std::vector<Recording>& runs) {
   for (auto& run : runs) {
     auto& power_W = run.channels.at(std::string(channel::power_W));
     power_W.insert(power_W.begin(), power_W.front());
     power_W.pop_back();
     run.meter_delay = 1;
   }
+}
+
+// Power that is not given back is beyond the laws of a drive, and a row's delay small beside it.
+TEST(MeterDelay, IsToldOfADriveThatBurnsWhatComesBack) {
+  auto axis = plant::source_axis();
+  axis.effects.push_back(tests::effect("regeneration_clipped", {{"share", 1.0}}));
+  for (const double amplitude_m : {0.005, 0.015, 0.04})
+    for (const double speed_m_per_s : {0.1, 0.2, 0.4}) {
+      std::vector<Recording> runs;
+      for (const double share : {0.5, 1.0})
+        runs.push_back(tests::make_recording(axis, {.motion = "s_curve",
+                                                    .settings = {.amplitude_m = amplitude_m,
+                                                                 .speed_m_per_s = share * speed_m_per_s,
+                                                                 .acceleration_m_per_s2 = 12.0,
+                                                                 .jerk_m_per_s3 = 2000.0,
+                                                                 .dwell_s = 0.05},
+                                                    .duration_s = 6.0}));
+      EXPECT_EQ(meter_delay(runs, axis), 0U) << amplitude_m << ", " << speed_m_per_s;
+      read_a_row_later(runs);
+      EXPECT_EQ(meter_delay(runs, axis), 1U) << amplitude_m << ", " << speed_m_per_s;
+    }
+}
+
+TEST(MeterDelay, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
+  auto runs = runs_of_the_plant();
+  read_a_row_later(runs);
   EXPECT_EQ(meter_delay(runs, plant::source_axis()), 1U);
   const auto meter = metered_rows(runs[0], plant::source_axis());
   EXPECT_EQ(meter.delay, 1U);
