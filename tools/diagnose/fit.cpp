@@ -48,6 +48,22 @@ Vector Fitter::whitened(const Candidate& at, const Vector& residual, const White
   return white;
 }
 
+Vector Fitter::step_without_jumps(const Candidate& at, Eigen::MatrixXd information, Vector slope) const {
+  auto unknown = static_cast<Index>(base_.size());
+  for (const auto& effect : at.effects)
+    for (const auto& p : effect.hypothesis->parameters) {
+      if (!fitted(p.kind)) continue;
+      if (effect.hypothesis->jumps) {
+        information.row(unknown).setZero();
+        information.col(unknown).setZero();
+        information(unknown, unknown) = 1.0;
+        slope[unknown] = 0.0;
+      }
+      ++unknown;
+    }
+  return information.ldlt().solve(slope);
+}
+
 Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
   Candidate to = from;
   Index at = 0;
@@ -141,18 +157,30 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
   Fit best = linearised(start, whitening);
   for (int i = 0; i < longer * iterations; ++i) {
     const Vector slope = best.jacobian.transpose() * best.white;
+    const bool jumps = std::ranges::any_of(best.model.effects, [](const Active& a) { return a.hypothesis->jumps; });
     bool better = false;
     Candidate next;
     double cost = best.cost;
     struct Try {
       double damping, length;
+      bool jumps_held;
     };
-    // shorter along the same line first, since steps are bounded; then as Levenberg and Marquardt
-    for (const auto [damping, length] :
-         {Try{0.0, 1.0}, {0.0, 0.5}, {0.0, 0.2}, {1e-3, 1.0}, {3e-2, 1.0}, {0.3, 1.0}, {3.0, 1.0}}) {
+    // shorter along the same line first, since steps are bounded; then as Levenberg and Marquardt; at last
+    // without laws that jump, whose slopes promise what no step keeps
+    for (const auto [damping, length, jumps_held] : {Try{0.0, 1.0, false},
+                                                     {0.0, 0.5, false},
+                                                     {0.0, 0.2, false},
+                                                     {1e-3, 1.0, false},
+                                                     {3e-2, 1.0, false},
+                                                     {0.3, 1.0, false},
+                                                     {3.0, 1.0, false},
+                                                     {0.0, 1.0, true},
+                                                     {0.0, 0.3, true}}) {
+      if (jumps_held && !jumps) break;
       Eigen::MatrixXd damped = best.information;
       damped.diagonal() += (damping + 1e-12) * best.information.diagonal() + Vector::Constant(slope.size(), 1e-12);
-      next = moved(best.model, length * damped.ldlt().solve(slope));
+      next = moved(best.model, length * (jumps_held ? step_without_jumps(best.model, damped, slope)
+                                                    : Vector(damped.ldlt().solve(slope))));
       cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
       better = cost < best.cost;
       if (better) break;

@@ -64,6 +64,8 @@ class Fitter {
     bool refollow = false;  ///< friction is another one
   };
   [[nodiscard]] std::vector<Beside> beside_of(const Candidate& at) const;
+  /// The step with effects whose laws jump as they are.
+  [[nodiscard]] Vector step_without_jumps(const Candidate& at, Eigen::MatrixXd information, Vector slope) const;
   [[nodiscard]] Candidate moved(const Candidate& from, const Vector& step) const;
 
   const InverseModel& model_;

@@ -96,6 +96,7 @@ struct Hypothesis {
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 
+  bool jumps = false;       ///< its law jumps with its numbers: a mark is passed a sample earlier or later
   bool friction = false;    ///< sets the factors, so that friction must be followed again
   bool forces_too = false;  ///< and more than these: otherwise the forces need not ask it
 };

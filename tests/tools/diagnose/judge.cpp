@@ -50,6 +50,32 @@ TEST_F(Judged, ANumberThatAWrongModelTookToNothingFindsItsWayBack) {
   EXPECT_NEAR(fit.model.axis.ball_screw.coulomb_N.pos, axis.ball_screw.coulomb_N.pos, 0.05 * axis.ball_screw.coulomb_N.pos);
 }
 
+// Whatever moves the mark's angle, a pass falls into another sample: a step that does so costs more than all else can bring.
+TEST(Jumps, AnEffectIsFittedBesideAMarkThatLosesCounts) {
+  constexpr double amplitude_N = 4.0;
+  auto truth = plant::source_axis(), nominal = truth;
+  truth.effects.push_back(tests::effect("count_loss", {{"counts_per_pass", 141.0}, {"angle_rad", 3.1}}));
+  truth.effects.push_back(
+      tests::effect("rev_ripple", {{"amplitude_N", amplitude_N}, {"cycles_per_rev", 3.37}, {"phase_rad", 1.5}}));
+  nominal.motor.inertia_kgm2 *= 1.05;
+  nominal.ball_screw.coulomb_N.pos *= 0.95;
+  std::vector<tools::Recording> runs;
+  for (const double speed : {0.02, 0.09})
+    runs.push_back(tests::make_recording(truth, {.motion = "sine",
+                                                 .settings = {.amplitude_m = 0.02, .speed_m_per_s = speed},
+                                                 .duration_s = 6.0,
+                                                 .scale_at_table = true,
+                                                 .seed = static_cast<unsigned>(1000.0 * speed)}));
+  const InverseModel model(make_tracks(runs, nominal), nominal);
+  const Fitter fitter(model, nominal);
+  auto whitening = Whitening::estimate(model, model.residual(nominal, {}));
+  const Fit marked = fitter.fit_with_colour({nominal, {{&hypothesis("count_loss"), {139.0, 3.06}}}}, whitening, 2, 6);
+  const auto scores = scores_of({&hypothesis("rev_ripple")}, fitter, marked, whitening);
+  const Fit both = fit_with(fitter, marked.model, scores.front(), 1, whitening, 6);
+  const auto& q = both.model.effects[1].q;
+  EXPECT_NEAR(std::hypot(q[0], q[1]), amplitude_N, 0.1 * amplitude_N);
+}
+
 TEST(Starts, ADeadTimeOfSeveralTicksIsReachedThoughASensorReadsAnotherCommandWithEach) {
   constexpr double delay_s = 3.4e-3;
   auto truth = plant::source_axis(), nominal = truth;

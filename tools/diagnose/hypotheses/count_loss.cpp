@@ -74,6 +74,7 @@ Hypothesis count_loss() {
           .admissible = possible,
           .sentence = "the encoder loses {counts_per_pass} counts at every turn, at {angle_rad} rad",
           .confused_with = {"lead_error", "cyclic_lead_error"},
+          .jumps = true,
           .friction = false};
 }
 
