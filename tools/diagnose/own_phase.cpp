@@ -41,7 +41,7 @@ void take_phases(const InverseModel& unseen, const Whitening& whitening, Candida
 }  // namespace
 
 bool phases_agree(const Active& line) {
-  constexpr double least = 0.9;  // of what the amplitudes would add up to
+  constexpr double least = 0.99;  // of what the amplitudes would add up to: three by chance in 1 of 120 (0.9: 1 of 12)
   const auto lines = lines_of(line);
   double lengths = 0.0;
   for (const auto& one : lines) lengths += std::abs(one);

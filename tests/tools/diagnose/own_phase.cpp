@@ -58,6 +58,20 @@ TEST(OwnPhase, OneThatAllRunsShareIsTheUnseenRunsToo) {
   EXPECT_NEAR(made.phase_rad(for_unseen(made.unseen, made.whitening, made.fitted), 0), 1.1, 0.05);
 }
 
+TEST(OwnPhase, NearlyAlikeByChanceIsNotShared) {
+  const auto line = [](std::initializer_list<double> phases_rad) {
+    Active one{&hypothesis("process_force"), std::vector<double>(2 * line_runs + 1, 0.0)};
+    std::size_t at = 0;
+    for (const double phase_rad : phases_rad) {
+      one.q[at++] = 30.0 * std::cos(phase_rad);
+      one.q[at++] = 30.0 * std::sin(phase_rad);
+    }
+    return one;
+  };
+  EXPECT_TRUE(phases_agree(line({0.26, 0.30, 0.22})));
+  EXPECT_FALSE(phases_agree(line({0.26, 0.38, -0.29})));
+}
+
 TEST(OwnPhase, WhereEachRunHasItsOwnTheUnseenRunIsAsked) {
   const Shaken made({0.4, -1.9}, 2.5);
   ASSERT_FALSE(phases_agree(made.fitted.effects.front()));
