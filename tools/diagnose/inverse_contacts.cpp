@@ -24,10 +24,11 @@ Factors factors_of(const std::vector<Active>& effects, const plant::AxisParamete
   return {sum.screw_sliding.cwiseMax(least), sum.screw_viscous.cwiseMax(least)};
 }
 
-/// Do both models scale friction alike? Laws look at the contacts and at how the axis is built.
+/// Do both models scale friction alike? Laws look at the contacts, the table's mass and how the axis is built.
 bool alike(const InverseModel::Asked& one, const InverseModel::Asked& other) {
   const auto &a = *one.axis, &b = *other.axis;
-  if (!(a.ball_screw == b.ball_screw && a.guide == b.guide && a.axis == b.axis)) return false;
+  if (!(a.ball_screw == b.ball_screw && a.guide == b.guide && a.guide_mass_kg == b.guide_mass_kg && a.axis == b.axis))
+    return false;
   return std::ranges::equal(*one.effects, *other.effects, [](const Active& p, const Active& q) {
     return p.hypothesis == q.hypothesis && (!p.hypothesis->friction || p.q == q.q);
   });

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "plant/effects/registry.h"
@@ -45,6 +46,38 @@ TEST(ForwardModel, TheAxisThatMadeARunLeavesTheNoiseFloorAndAWrongOneMore) {
   EXPECT_LT(left, 1.5 * floor);
   EXPECT_GT(left, 0.5 * floor);
   EXPECT_GT(forward.nrmse(data.axis).at("torque_cmd_Nm"), 3.0 * floor);
+}
+
+// A step of a fit may ask for anything: an axis that is no number is like no other, and takes none of their results.
+TEST(ForwardModel, SimulatesEqualAxesOnceAndEachAsAlone) {
+  const Case data = made_case(0.0);
+  const ForwardModel forward(data.fit, data);
+  auto heavy = data.axis, nothing = data.axis;
+  heavy.guide_mass_kg *= 1.5;
+  nothing.guide_mass_kg = std::numeric_limits<double>::quiet_NaN();
+  const auto& run = forward.runs().front();
+  const auto all = forward.simulate(run, {data.axis, nothing, heavy, data.axis, nothing});
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(all[0].torque_Nm, forward.simulate(run, {data.axis}).front().torque_Nm);
+  EXPECT_EQ(all[2].torque_Nm, forward.simulate(run, {heavy}).front().torque_Nm);
+  EXPECT_EQ(all[3].torque_Nm, all[0].torque_Nm);
+  EXPECT_NE(all[2].torque_Nm, all[0].torque_Nm);
+  for (const std::size_t i : {1U, 4U}) EXPECT_EQ(all[i].torque_Nm.size(), run.recording().size());
+}
+
+TEST(ForwardModel, LeavesOutOnlySensorsThatAreNotRecorded) {
+  const Case bare = made_case(0.0);
+  Case whole = bare;
+  for (auto& run : whole.fit)
+    for (const char* name : {"torque_sensor_Nm", "force_sensor_N"}) run.channels[name] = run.channels.at("position_m");
+  const ForwardModel with(whole.fit, whole), without(bare.fit, bare);
+  const auto one = with.simulate(with.runs().front(), {whole.axis}).front();
+  const auto other = without.simulate(without.runs().front(), {whole.axis}).front();
+  ASSERT_GT(bare.fit.front().size(), 1000U);
+  EXPECT_EQ(one.force_sensor_N.size(), bare.fit.front().size());
+  EXPECT_TRUE(other.force_sensor_N.empty() && other.torque_sensor_Nm.empty());
+  EXPECT_EQ(other.torque_Nm, one.torque_Nm);
+  EXPECT_EQ(other.power_W, one.power_W);
 }
 
 TEST(ForwardModel, PolishingBringsABiasedStartToTheTruthWithinItsInterval) {

@@ -100,7 +100,8 @@ std::vector<Simulated> ForwardModel::simulate(const ClosedLoopRun& run,
                                               const std::vector<plant::AxisParameters>& axes) const {
   std::vector<std::size_t> like(axes.size()), different;  // a number of another run's changes nothing in this one
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    like[i] = static_cast<std::size_t>(std::ranges::find(axes, axes[i]) - axes.begin());
+    const auto own = axes.begin() + static_cast<std::ptrdiff_t>(i);
+    like[i] = static_cast<std::size_t>(std::find(axes.begin(), own, *own) - axes.begin());  // nan is like nothing
     if (like[i] == i) different.push_back(i);
   }
   std::vector<Simulated> all(axes.size());

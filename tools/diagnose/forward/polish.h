@@ -19,7 +19,7 @@ struct Polished {
 
 struct PolishSettings {
   int rounds = 2, most_iterations = 4;
-  double least_fall_nats = 0.5;  ///< less than half a deviation of what the data tell
+  double least_fall_nats = 0.5;  ///< what a number costs that is off by its own deviation; the last step is taken
   bool coloured_from_start = false, intervals = true;
 };
 

@@ -1,15 +1,13 @@
 #include "tools/identify/lanes/follow.h"
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 #include "tools/identify/lanes/dispatch.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::lanes {
 namespace {
-
-constexpr std::size_t widest = 8;
 
 /// Half-empty registers cost as much as full ones: the narrowest that takes them all, or the widest there is.
 KernelEntry kernel_for(std::size_t motions) {
@@ -27,9 +25,8 @@ void follow_friction(std::span<const FollowedMotion> motions) {
   const KernelEntry kernel = kernel_for(motions.size());
   parallel_for((motions.size() + kernel.width - 1) / kernel.width, [&](std::size_t group) {
     const auto own = motions.subspan(group * kernel.width, std::min(kernel.width, motions.size() - group * kernel.width));
-    std::array<FollowedMotion, widest> lanes;
-    std::ranges::copy(own, lanes.begin());
-    std::fill(lanes.begin() + static_cast<std::ptrdiff_t>(own.size()), lanes.end(), own.back());  // the last one again
+    std::vector<FollowedMotion> lanes(own.begin(), own.end());
+    lanes.resize(kernel.width, own.back());  // empty lanes follow the last one again
     kernel.follow(lanes.data());
   });
 }
