@@ -54,7 +54,7 @@ TEST(ForwardModel, SimulatesEqualAxesOnceAndEachAsAlone) {
   const ForwardModel forward(data.fit, data);
   auto heavy = data.axis, nothing = data.axis;
   heavy.guide_mass_kg *= 1.5;
-  nothing.guide_mass_kg = std::numeric_limits<double>::quiet_NaN();
+  nothing.axis.end_stop_stiffness_N_per_m = std::numeric_limits<double>::quiet_NaN();  // left out of these simulations
   const auto& run = forward.runs().front();
   const auto all = forward.simulate(run, {data.axis, nothing, heavy, data.axis, nothing});
   ASSERT_EQ(all.size(), 5U);
@@ -62,7 +62,7 @@ TEST(ForwardModel, SimulatesEqualAxesOnceAndEachAsAlone) {
   EXPECT_EQ(all[2].torque_Nm, forward.simulate(run, {heavy}).front().torque_Nm);
   EXPECT_EQ(all[3].torque_Nm, all[0].torque_Nm);
   EXPECT_NE(all[2].torque_Nm, all[0].torque_Nm);
-  for (const std::size_t i : {1U, 4U}) EXPECT_EQ(all[i].torque_Nm.size(), run.recording().size());
+  for (const std::size_t i : {1U, 4U}) EXPECT_EQ(all[i].torque_Nm, all[0].torque_Nm);
 }
 
 TEST(ForwardModel, LeavesOutOnlySensorsThatAreNotRecorded) {
