@@ -8,10 +8,12 @@
 namespace feedtwin::tools {
 namespace {
 
-/// Speed at the first row; 0 where the first step is within the encoder's rounding.
+/// Speed at the first row: the slope there of the parabola through three rows, so that an axis that sets off from rest is at
+/// rest. 0 where that slope is within what the encoder's rounding of the three can make of it.
 double start_velocity(std::span<const double> position_m, const plant::AxisParameters& nominal, double tick_s) {
   const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
-  return std::abs(position_m[1] - position_m[0]) > 1.5 * count_m ? (position_m[2] - position_m[0]) / (2.0 * tick_s) : 0.0;
+  const double step_m = 0.5 * (4.0 * (position_m[1] - position_m[0]) - (position_m[2] - position_m[0]));
+  return std::abs(step_m) > 2.0 * count_m ? step_m / tick_s : 0.0;
 }
 
 /// Eqs. 7 and 11 at a speed, without the idle power.
