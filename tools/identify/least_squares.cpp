@@ -103,8 +103,10 @@ Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& a
   const VectorXd gradient = at.jacobian.transpose() * at.residuals;
   MatrixXd points(at.point.size(), static_cast<Index>(factors.size()));
   for (;;) {
-    for (Index i = 0; i < points.cols(); ++i)
+    for (Index i = 0; i < points.cols(); ++i) {
       points.col(i) = damped_point(problem, at, normal, gradient, damping * factors[static_cast<std::size_t>(i)]);
+      if (!points.col(i).allFinite()) points.col(i) = at.point;  // no numbers are no axis to simulate
+    }
     const MatrixXd residuals = problem.residuals(points);
     Index best = 0;
     for (Index i = 1; i < points.cols(); ++i)

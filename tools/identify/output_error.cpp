@@ -94,7 +94,7 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
   LeastSquaresProblem problem = problem_for(parameters, stack, settings);
   LeastSquaresSolution at;
   for (int round = 0; round < settings.rounds; ++round) {
-    stack.weigh(problem.start, round > 0 || settings.coloured_from_start);
+    stack.weigh(problem.start, round > 0 || settings.coloured_from_start, round > 0);
     at = solve_least_squares(problem);
     if (settings.progress) {
       settings.progress(fmt::format("round {} of {}: {} iterations, weighted rms {:.4f}", round + 1, settings.rounds,

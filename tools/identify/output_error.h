@@ -36,6 +36,9 @@ struct OutputErrorSettings {
   /// Rows at rest and about it count by what an encoder's rounding leaves of them: a rest's mean as one reading, the ticks
   /// of sticking and setting off by a few deviations at most. Not where what is missing may act at rest.
   bool doubt_rests = true;
+  /// After the first round, a row that is off by more deviations than this counts by the root of its size only
+  /// (pseudo-Huber): the tick in which an axis sticks or sets off is chance. 0: every row by its square.
+  double largest_deviations = 0.0;
   int encoder_grids = 32;            ///< that the effect of the encoder's rounding is seen on; fewer than 2: it is left out
   int rounds = 3;                    ///< of fitting and weighing anew
   bool coloured_from_start = false;  ///< else the first round takes the residuals for white

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "tools/identify/innovations.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools {
@@ -116,7 +117,7 @@ MatrixXd ResidualStack::operator()(const MatrixXd& points) {
   return all;
 }
 
-void ResidualStack::weigh(const VectorXd& point, bool coloured) {
+void ResidualStack::weigh(const VectorXd& point, bool coloured, bool bounded) {
   std::array<std::vector<std::vector<double>>, fitted_channels.size()> stretches;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     auto simulated = simulate_(runs_[r], point);
@@ -127,10 +128,13 @@ void ResidualStack::weigh(const VectorXd& point, bool coloured) {
   }
   learn_growth(stretches);
   limits_events_ = coloured && settings_.doubt_rests;
+  bounded_ = bounded && settings_.largest_deviations > 0.0;
   for (std::size_t c = 0; c < stretches.size(); ++c) {
     rest_scatter_[c] = limits_events_ && row_by_row(c) ? rest_scatter(c, stretches[c]) : 0.0;
     for (std::size_t r = 0; r < runs_.size(); ++r) settle(r, c, stretches[c][r]);
-    whitening_[c] = fit_whitening(stretches[c], coloured ? settings_.whitening_order : 0, smallest_sigma(c));
+    const std::size_t order = coloured ? settings_.whitening_order : 0;
+    whitening_[c] = bounded_ ? innovations_of(stretches[c], order, smallest_sigma(c)).colour
+                             : fit_whitening(stretches[c], order, smallest_sigma(c));
   }
 }
 
@@ -141,6 +145,7 @@ void ResidualStack::weigh_as(const ResidualStack& other) {
   power_rms_W_ = other.power_rms_W_;
   growth_ = other.growth_;
   limits_events_ = other.limits_events_;
+  bounded_ = other.bounded_;
   rest_scatter_ = other.rest_scatter_;
   whitening_ = other.whitening_;
 }
@@ -170,6 +175,7 @@ MatrixXd ResidualStack::own(const MatrixXd& points) {
         settle(r, c, channels[c]);
         whitening_[c].apply(channels[c]);
         if (row_by_row(c)) limit_events(r, channels[c]);
+        if (bounded_) bound(channels[c]);
         if (fitted_channels[c] == channel::torque_cmd_Nm && rounding_is_left_[r]) {
           for (std::size_t i = 0; i < channels[c].size(); ++i) channels[c][i] *= reading_weights_[r][i];
         }
@@ -222,6 +228,12 @@ void ResidualStack::limit_events(std::size_t run, std::vector<double>& residuals
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (near_rest_[run][i]) residuals[i] = std::clamp(residuals[i], -largest_event, largest_event);
   }
+}
+
+/// e^2 / 2 -> c^2 (sqrt(1 + (e / c)^2) - 1), as the square of what is returned
+void ResidualStack::bound(std::vector<double>& residuals) const {
+  const double c = settings_.largest_deviations;
+  for (double& e : residuals) e = std::copysign(c * std::sqrt(2.0 * (std::sqrt(1.0 + (e / c) * (e / c)) - 1.0)), e);
 }
 
 /// A channel cannot be trusted beyond a ten-thousandth of its own size.

@@ -26,8 +26,8 @@ class ResidualStack {
   /// A column for each point; simulated by whoever shares the work.
   [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& points);
 
-  /// Learn each channel's weight and colour from what is left at a point.
-  void weigh(const Eigen::VectorXd& point, bool coloured);
+  /// Learn each channel's weight and colour from what is left at a point. @param bounded as the settings say
+  void weigh(const Eigen::VectorXd& point, bool coloured, bool bounded = false);
   /// The weights, colours and meter rows of another stack, for recordings of the same channels and lengths.
   void weigh_as(const ResidualStack& other);
 
@@ -51,6 +51,7 @@ class ResidualStack {
   [[nodiscard]] ByChannel residuals_of(std::size_t run, Simulated& simulated) const;
   [[nodiscard]] double rest_scatter(std::size_t channel, const std::vector<std::vector<double>>& stretches) const;
   void settle(std::size_t run, std::size_t channel, std::vector<double>& residuals) const;
+  void bound(std::vector<double>& residuals) const;
   void limit_events(std::size_t run, std::vector<double>& residuals) const;
   [[nodiscard]] Eigen::MatrixXd own(const Eigen::MatrixXd& points);
   [[nodiscard]] double smallest_sigma(std::size_t channel) const;
@@ -69,7 +70,7 @@ class ResidualStack {
   std::vector<std::vector<Rest>> rests_;              ///< by run
   std::vector<std::vector<bool>> near_rest_;          ///< by run and row
   std::array<double, fitted_channels.size()> rest_scatter_{};
-  bool limits_events_ = false;
+  bool limits_events_ = false, bounded_ = false;
   std::array<bool, fitted_channels.size()> given_{};
   std::vector<bool> rounding_is_left_;  ///< by run, when it was weighed
   double power_rms_W_ = 1.0, growth_ = 0.0;

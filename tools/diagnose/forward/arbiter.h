@@ -24,7 +24,7 @@ class Arbiter {
     Likelihood likelihood;
     double value = 0.0;  ///< nats, less what its parameters cost
   };
-  [[nodiscard]] Ruling rule(const Fit& fit) const;
+  [[nodiscard]] Ruling rule(const Fit& fit, const Candidate& start, int most_iterations) const;
   /// @param beaten were exchanged before and are not asked again
   [[nodiscard]] bool exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t effect,
                                std::vector<const Hypothesis*>& beaten) const;

@@ -6,15 +6,13 @@
 #include <numeric>
 
 #include "tools/identify/channel_residuals.h"
-#include "tools/identify/whitening.h"
+#include "tools/identify/innovations.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double stretch_s = 0.25;
-constexpr std::size_t highest_order = 24;
 constexpr double least_reading = 0.2;  // of the rms: a meter's error is partly of its reading
-constexpr double smallest_sigma = 1e-9;
 
 /// A channel's residuals of all runs, and the stretch that each is of.
 struct Channel {
@@ -60,14 +58,10 @@ Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis) {
   }
   for (auto& channel : channels) {
     if (channel.residuals.empty()) continue;
-    const auto whitening = fit_whitening(channel.residuals, highest_order, smallest_sigma);
-    for (std::size_t r = 0; r < channel.residuals.size(); ++r) {
-      whitening.apply(channel.residuals[r]);
-      for (std::size_t i = 0; i < channel.residuals[r].size(); ++i) {
-        const double e = channel.residuals[r][i];
-        found.stretches[channel.stretch[r][i]] -= std::log(whitening.sigma) + 0.5 * e * e;
-      }
-    }
+    const auto innovations = innovations_of(channel.residuals);
+    for (std::size_t r = 0; r < channel.residuals.size(); ++r)
+      for (std::size_t i = 0; i < channel.residuals[r].size(); ++i)
+        found.stretches[channel.stretch[r][i]] += innovations.log_density(innovations.values[r][i]);
   }
   return found;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // How likely the runs are under an axis, by closed-loop simulation: each channel's residuals as an autoregressive process of
-// their own colour. Kept by stretches of time, so that two models can be compared stretch by stretch (Vuong 1989): a
-// difference that the stretches do not agree about says nothing.
+// their own colour, driven by Student's t. Kept by stretches of time, so that two models can be compared stretch by stretch
+// (Vuong 1989): a difference that the stretches do not agree about says nothing.
 
 #include <vector>
 
