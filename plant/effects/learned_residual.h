@@ -3,16 +3,18 @@
 //
 //   F = (f+ + f-) / 2 + zeta (f+ - f-) / 2,   d zeta/dx = (1 - zeta sgn v) / D,   -1 <= zeta <= 1
 //
-// f+ and f- are read from the table on straight lines between its points (constant beyond the ends) for motion forth and
-// back; zeta is the direction of motion, turned over the path D = 2 um after a reversal, so that at rest the axis is held,
-// not pushed. Exactly one of position_m, velocity_m_per_s (speeds) and since_reversal_s is given; without force_neg_N the
-// force is force_pos_N in both directions.
+// f+ and f- are a force and a damping times the speed, read from the table on straight lines between its points (constant
+// beyond the ends) for motion forth and back; zeta is the direction of motion, turned over the path D = 2 um after a
+// reversal, so that at rest the axis is held, not pushed. Exactly one of position_m, velocity_m_per_s (speeds) and
+// since_reversal_s is given; without force_neg_N the force is force_pos_N in both directions; without a damping there is
+// none.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plant/effects/entry.h"
@@ -29,7 +31,11 @@ class LearnedResidual final : public Effect {
                                           : 2),
         at_(setting.lists[static_cast<std::size_t>(over_)]),
         pos_N_(setting.lists[3]),
-        neg_N_(setting.lists[4].empty() ? setting.lists[3] : setting.lists[4]) {}
+        neg_N_(setting.lists[4].empty() ? setting.lists[3] : setting.lists[4]),
+        pos_Ns_per_m_(setting.lists[5]),
+        neg_Ns_per_m_(setting.lists[6]) {
+    for (auto* damping : {&pos_Ns_per_m_, &neg_Ns_per_m_}) damping->resize(at_.size(), 0.0);
+  }
 
   static std::string problem(const EffectSetting& setting) {
     const auto given =
@@ -39,8 +45,11 @@ class LearnedResidual final : public Effect {
     if (at.size() > most_points) return "more than " + std::to_string(most_points) + " points";
     if (std::adjacent_find(at.begin(), at.end(), std::greater_equal<>{}) != at.end()) return "the points must ascend";
     if (setting.lists[3].size() != at.size()) return "force_pos_N must have one number for each point";
-    if (!setting.lists[4].empty() && setting.lists[4].size() != at.size())
-      return "force_neg_N must have one number for each point";
+    for (const auto& [list, name] :
+         {std::pair{4, "force_neg_N"}, {5, "damping_pos_Ns_per_m"}, {6, "damping_neg_Ns_per_m"}}) {
+      const std::size_t size = setting.lists[static_cast<std::size_t>(list)].size();
+      if (size > 0 && size != at.size()) return std::string(name) + " must have one number for each point";
+    }
     return {};
   }
 
@@ -55,12 +64,14 @@ class LearnedResidual final : public Effect {
                          : over_ == 1 ? std::abs(m.velocity_m_per_s)
                                       : since_s_ + 0.5 * m.h_s;
     const Place place = find(where);
-    const double forth_N = on_line(pos_N_, place);
-    const double back_N = on_line(neg_N_, place);
-    const double y = std::abs(m.velocity_m_per_s) * m.h_s / turning_m;
+    const double speed = std::abs(m.velocity_m_per_s);
+    const double forth_Ns_per_m = on_line(pos_Ns_per_m_, place), back_Ns_per_m = on_line(neg_Ns_per_m_, place);
+    const double forth_N = on_line(pos_N_, place) + forth_Ns_per_m * speed;
+    const double back_N = on_line(neg_N_, place) + back_Ns_per_m * speed;
+    const double y = speed * m.h_s / turning_m;
     const double old_share = y > 1e-6 ? -std::expm1(-y) / y : 1.0 - 0.5 * y;
     const double turned = y > 0.0 ? m.sign + (direction_ - m.sign) * old_share : direction_;
-    return {0.5 * (forth_N + back_N) + 0.5 * (forth_N - back_N) * turned, 0.0};
+    return {0.5 * (forth_N + back_N) + 0.5 * (forth_N - back_N) * turned, m.sign > 0.0 ? forth_Ns_per_m : -back_Ns_per_m};
   }
 
   void advance(const EffectMotion& m) noexcept override {
@@ -89,7 +100,7 @@ class LearnedResidual final : public Effect {
   }
 
   int over_;
-  std::vector<double> at_, pos_N_, neg_N_;
+  std::vector<double> at_, pos_N_, neg_N_, pos_Ns_per_m_, neg_Ns_per_m_;
   double direction_ = 0.0, since_s_ = 0.0, last_sign_ = 0.0;
 };
 
@@ -101,6 +112,8 @@ inline constexpr std::array learned_residual_parameters{
     EffectParameter{"since_reversal_s", "s", 0.0, 10000.0, {}, {}, "points of the table: time since the last change of direction, ascending", true},
     EffectParameter{"force_pos_N", "N", -100000.0, 100000.0, {}, {}, "force at each point while moving forth; positive: acts against positive motion", true},
     EffectParameter{"force_neg_N", "N", -100000.0, 100000.0, {}, {}, "the same while moving back; missing: as forth", true},
+    EffectParameter{"damping_pos_Ns_per_m", "N s/m", -100000.0, 100000.0, {}, {}, "force more at each point by speed while moving forth; missing: none", true},
+    EffectParameter{"damping_neg_Ns_per_m", "N s/m", -100000.0, 100000.0, {}, {}, "the same while moving back", true},
 };
 // clang-format on
 

@@ -108,7 +108,7 @@ Drive::Loads Drive::loads(const State& y, State* dy, double t) const {
   const double bump = std::exp(-std::pow((xt - e_.local_centre_m) / e_.local_half_width_m, 2.0));
   const double guide_factor = 1.0 + e_.local_height_N * bump / side(axis_.guide, vt).coulomb_N;
   const double guide_N =
-      contact(axis_.guide, first_element + elements_, y, dy, vt, film_table, std::max(0.01, guide_factor), warm);
+      contact(axis_.guide, first_element + elements_, y, dy, vt, film_table, std::max(0.01, guide_factor), 1.0);
   const double mu = side(axis_.screw, v).viscous_Ns_per_m;
   if (e_.sublinear_exponent != 1.0) {
     const double speed = std::sqrt(v * v + 1e-8);
@@ -127,6 +127,7 @@ Drive::Loads Drive::loads(const State& y, State* dy, double t) const {
   }
   l.motor_N = (v < 0.0 ? axis_.motor_damping_neg_Nms : axis_.motor_damping_pos_Nms) * k_ * k_ * v +
               k_ * wave(e_.cogging, x, axis_.lead_m) + (braking > 0.0 ? braking * last_acceleration_ : 0.0);
+  l.screw_friction_N = screw_N;
   l.screw_N = screw_N + wave(e_.rev_ripple, x, axis_.lead_m);
 
   // table
@@ -194,7 +195,7 @@ void Drive::operator()(const State& y, State& dy, double t) const {
   if (e_.current_loop_s > 0.0) dy[current] = (command_Nm_ - y[current]) / e_.current_loop_s;
   if (e_.frictional_lag_s > 0.0) dy[film] = (std::abs(v) - y[film]) / e_.frictional_lag_s;
   if (e_.dwell_rise != 0.0) dy[age] = 1.0 - std::abs(v) * y[age] / e_.dwell_memory_m;
-  dy[work] = (coulomb_N * (mode_ == 0 ? 0.0 : 1.0) + l.motor_N + l.screw_N + (rigid() ? l.table_N : 0.0)) * v;
+  dy[work] = l.screw_friction_N * v;
   const double power_W = electrical_W(v, l.motor_Nm) + l.drive_N * v;
   dy[input] = power_W < 0.0 ? (1.0 - e_.regeneration_lost) * power_W : power_W;
 }

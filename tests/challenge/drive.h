@@ -52,6 +52,7 @@ class Drive {
   };
   struct Loads {
     double motor_N, screw_N, table_N;  ///< against positive motion, without the motor's Coulomb friction
+    double screw_friction_N;           ///< of screw_N
     double table_kg, drive_N, motor_Nm;
   };
 

@@ -48,7 +48,7 @@ inline EffectSetting any_setting(const EffectEntry& entry, std::mt19937& random)
     if (!p.list) setting.values.push_back(any_value(p, random));
   }
   if (entry.id == "learned_residual") {
-    setting.lists.resize(5);
+    setting.lists.resize(7);
     const auto over = std::uniform_int_distribution<std::size_t>(0, 2)(random);
     const int points = std::uniform_int_distribution<int>(1, 20)(random);
     std::uniform_real_distribution<double> step(1e-6, 0.02), force(-50.0, 50.0);
@@ -59,6 +59,10 @@ inline EffectSetting any_setting(const EffectEntry& entry, std::mt19937& random)
       if (random() % 2 == 0 || !setting.lists[4].empty()) setting.lists[4].resize(setting.lists[3].size(), force(random));
     }
     if (!setting.lists[4].empty()) setting.lists[4].resize(setting.lists[3].size());
+    std::uniform_real_distribution<double> damping(-20.0, 100.0);
+    for (const std::size_t list : {5U, 6U})
+      if (random() % 2 == 0)
+        for (int i = 0; i < points; ++i) setting.lists[list].push_back(damping(random));
   }
   return setting;
 }

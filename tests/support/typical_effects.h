@@ -55,7 +55,9 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"wrong_sign", {1.0, 1.0, 1.0, -1.0, -1.0}},
   };
   if (entry.id == "learned_residual") {
-    return {"learned_residual", {}, {{-0.05, 0.0, 0.05}, {}, {}, {4.0, 9.0, 2.0}, {-5.0, -1.0, -6.0}}};
+    return {"learned_residual",
+            {},
+            {{-0.05, 0.0, 0.05}, {}, {}, {4.0, 9.0, 2.0}, {-5.0, -1.0, -6.0}, {20.0, 60.0, 10.0}, {-30.0, 0.0, -40.0}}};
   }
   const auto found = values.find(entry.id);
   if (found == values.end()) throw std::logic_error("no typical setting of " + std::string(entry.id));

@@ -11,6 +11,7 @@
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
+#include "tools/diagnose/forward/second_look.h"
 #include "tools/diagnose/forward/sizes.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
@@ -22,9 +23,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double smallest_share_held_out = 0.35;
-constexpr double least_gain_of_a_table = 0.98;  // closed loop, runs of the fit: else the table stays out of the model
-constexpr double smallest_remainder_N = 1.0;
+constexpr double smallest_share_unseen = 0.35, smallest_share_of_use = 0.1;  // of a table: to be a verdict, to be used
+constexpr double smallest_remainder_N = 1.0;  // that makes a verdict; a table is of use from any
 
 /// Drops what the second engine does not bear out. Numbers of the model are told by how far the others would have to move.
 void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
@@ -70,6 +70,18 @@ Candidate polished_if_closer(const ForwardModel& forward, const Fitter& fitter, 
   return closest(forward, {extended(polished), extended(start)}) == 0 ? polished : start;
 }
 
+/// The model as the closed loop has its numbers, with the table where that brings the runs of the fit closer.
+plant::AxisParameters with_table(const ForwardModel& forward, const Fitter& fitter, const Candidate& told,
+                                 const Learned* learned) {
+  const Candidate plain = polished_if_closer(forward, fitter, told);
+  if (learned == nullptr) return extended(plain, worth_naming).common;
+  Candidate more = plain;
+  extend(more.axis, *learned);
+  more = polished_if_closer(forward, fitter, more);
+  const auto axis = [&](const Candidate& model) { return with_phases_of(told, extended(model, worth_naming).common); };
+  return extended(closest(forward, {axis(plain), axis(more)}) == 1 ? more : plain, worth_naming).common;
+}
+
 /// Takes back the names that rest on the force; what is left of the model.
 Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
   std::erase_if(result.effects, [&](const NamedEffect& e) { return rests_on_force(*e.hypothesis); });
@@ -113,14 +125,18 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   ForwardModel simulated(unseen, data);
   simulated.take_meter_from(forward);
   keep_confirmed(forward, fitter, found, fit, progress);
-  const Candidate settled = Arbiter(forward, fitter, progress).settle(found, fit);
-  const double inflation = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
-  Eigen::MatrixXd covariance = inflation * robust_covariance(model, fit);
+  Candidate settled = Arbiter(forward, fitter, progress).settle(found, fit);
   // a name that every unseen fold bears out stays, whatever else is left over
   const bool certain = std::ranges::any_of(found.found, [](const Found& one) {
     return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
   });
   const bool unknown = beyond_the_catalogue(fitter, found, fit.model, progress) && !certain;
+  if (!unknown) {
+    forward.learn_meter_noise(extended(settled));
+    settled = look_again(forward, fitter, found, fit, settled, progress);
+  }
+  const double inflation = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
+  Eigen::MatrixXd covariance = inflation * robust_covariance(model, fit);
   const Fit by_inverse_model = fit;
   progress("polishing the numbers by closed-loop simulation");
   if (!unknown) {
@@ -162,21 +178,17 @@ Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)
   Candidate told = fit.model;
   if (unknown) told = only_what_the_force_does_not_show(result, found, fit.model);
   const Candidate told_unseen = for_unseen(held_out, found.whitening, told);
-  const Learned learned = learn_remainder(model, told, held_out, told_unseen);
-  progress(fmt::format("a learned table would explain {:.0f} % of the {:.2g} N left over on held-out runs",
-                       100.0 * learned.share_held_out, learned.remainder_N));
-  const bool repeats = learned.share_held_out > smallest_share_held_out && learned.remainder_N > smallest_remainder_N;
-  if (unknown || (repeats && !anything_missing(result))) {
+  const Learned learned = learn_remainder(model, told);
+  progress(
+      fmt::format("a learned table would explain {:.0f} % of the {:.2g} N left over on runs that it was not learned from",
+                  100.0 * learned.share_unseen, learned.remainder_N));
+  const bool repeats = learned.share_unseen > smallest_share_unseen;
+  if (unknown || (repeats && learned.remainder_N > smallest_remainder_N && !anything_missing(result))) {
     result.verdict = "unknown";
     result.suspects.clear();
     result.unknown = learned;
-    result.updated = extended(told, worth_naming).common;
-    auto with_table = result.updated;
-    if (repeats) extend(with_table, learned);
-    const auto error = [&](const plant::AxisParameters& axis) {
-      return forward.nrmse(with_phases_of(told, axis)).at("torque_cmd_Nm");
-    };
-    if (repeats && error(with_table) < least_gain_of_a_table * error(result.updated)) result.updated = with_table;
+    if (result.effects.empty()) found.recalibrated.model = polished_if_closer(forward, fitter, found.recalibrated.model);
+    result.updated = with_table(forward, fitter, told, learned.share_unseen > smallest_share_of_use ? &learned : nullptr);
   }
   forward.learn_meter_noise(with_phases_of(told, result.updated));
   simulated.take_meter_from(forward);

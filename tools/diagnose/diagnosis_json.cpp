@@ -76,7 +76,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
     out["unknown"] = {{"axis", name_of(diagnosis.unknown->axis)},
                       {"interval", {diagnosis.unknown->low, diagnosis.unknown->high}},
                       {"remainder_N", diagnosis.unknown->remainder_N},
-                      {"share_held_out", diagnosis.unknown->share_held_out}};
+                      {"share_unseen", diagnosis.unknown->share_unseen}};
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));
     if (effect.alternatives.empty()) continue;

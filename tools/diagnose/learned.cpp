@@ -1,68 +1,38 @@
 #include "tools/diagnose/learned.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "plant/effects/registry.h"
-#include "tools/diagnose/taken_up.h"
+#include "tools/diagnose/remainder.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-struct Rows {
-  std::vector<double> remainder_N, position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s;
+constexpr std::size_t fewest_to_learn = 200, fewest_to_judge = 50;
+
+/// A table over one of the axes, with a force at each point or a force and a damping; as if so many rows had said zero.
+struct TableKind {
+  Where axis;
+  bool damped;
+  double rows_of_zero;
 };
+constexpr TableKind kinds[] = {{Where::position, false, 20.0}, {Where::position, true, 20.0}, {Where::velocity, false, 20.0},
+                               {Where::reversal, false, 20.0}, {Where::position, false, 2.0}, {Where::position, true, 2.0}};
 
-/// Sum of the force equations' residuals, with where the axis was.
-Rows force_rows(const InverseModel& model, const Candidate& at) {
-  const Vector residual = model.residual(at.axis, at.effects);
-  Rows rows;
-  for (std::size_t run = 0; run < model.tracks().size(); ++run) {
-    Vector sum;
-    const Segment* any = nullptr;
-    for (const auto& s : model.segments()) {
-      const auto& e = model.equations()[s.equation];
-      if (s.run != run || s.size == 0 || e.slip || e.power) continue;
-      add(sum, residual.segment(s.start, s.size));
-      any = &s;
-    }
-    const Track& track = model.tracks()[run];
-    for (Index i = 0; any != nullptr && i < any->size; ++i) {
-      const Index k = model.sample_of(*any, i);
-      if (std::abs(track.centred_m_per_s[k]) < 5.0 * standstill_m_per_s) continue;
-      rows.remainder_N.push_back(sum[i]);
-      rows.position_m.push_back(track.position_m[k]);
-      rows.velocity_m_per_s.push_back(track.centred_m_per_s[k]);
-      rows.acceleration_m_per_s2.push_back(slow_acceleration_m_per_s2(track, k));
-      rows.since_reversal_s.push_back(track.since_reversal_s[k]);
-    }
-  }
-  return rows;
+double argument(const Remainder& rows, Where axis, std::size_t k) {
+  if (axis == Where::position) return rows.position_m[k];
+  return axis == Where::reversal ? rows.since_reversal_s[k] : std::abs(rows.velocity_m_per_s[k]);
 }
 
-/// Takes off what the numbers could do of the rows to learn from, and as much of the others.
-void take_off_numbers(Rows& rows, Rows& others) {
-  const auto columns = [](const Rows& r) { return columns_of_numbers(r.acceleration_m_per_s2, r.velocity_m_per_s); };
-  const auto remainder = [](Rows& r) {
-    return Eigen::Map<Vector>(r.remainder_N.data(), static_cast<Index>(r.remainder_N.size()));
-  };
-  const Vector numbers = columns(rows).colPivHouseholderQr().solve(remainder(rows));
-  for (Rows* some : {&rows, &others}) remainder(*some) -= columns(*some) * numbers;
-}
-
-std::vector<double> arguments(const Rows& rows, Where axis) {
-  if (axis == Where::position) return rows.position_m;
-  if (axis == Where::reversal) return rows.since_reversal_s;
-  std::vector<double> speeds = rows.velocity_m_per_s;
-  for (double& v : speeds) v = std::abs(v);
-  return speeds;
-}
-
-std::vector<double> points_for(const std::vector<double>& x, Where axis) {
-  const auto [low, high] = std::ranges::minmax(x);
+std::vector<double> points_for(const Remainder& rows, Where axis) {
   if (axis == Where::reversal) return {0.0, 0.004, 0.008, 0.016, 0.03, 0.06, 0.12, 0.25, 0.5};
+  double low = argument(rows, axis, 0), high = low;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    low = std::min(low, argument(rows, axis, k));
+    high = std::max(high, argument(rows, axis, k));
+  }
   const int count = axis == Where::position ? 40 : 16;
   std::vector<double> points;
   for (int i = 0; i < count; ++i) {
@@ -73,63 +43,90 @@ std::vector<double> points_for(const std::vector<double>& x, Where axis) {
 }
 
 /// Weights of the two points about x, constant beyond the ends.
-std::pair<std::size_t, double> between(const std::vector<double>& points, double x) {
+std::pair<Index, double> between(const std::vector<double>& points, double x) {
   const auto above = std::ranges::upper_bound(points, x);
   if (above == points.begin()) return {0, 0.0};
-  if (above == points.end()) return {points.size() - 2, 1.0};
+  if (above == points.end()) return {static_cast<Index>(points.size()) - 2, 1.0};
   const auto i = static_cast<std::size_t>(above - points.begin()) - 1;
-  return {i, (x - points[i]) / (points[i + 1] - points[i])};
+  return {static_cast<Index>(i), (x - points[i]) / (points[i + 1] - points[i])};
+}
+
+double on_line(const std::vector<double>& values, Index i, double share) {
+  const auto at = static_cast<std::size_t>(i);
+  return values.empty() ? 0.0 : (1.0 - share) * values[at] + share * values[at + 1];
 }
 
 double read(const Learned& table, double x, double v) {
-  const auto& force = v > 0.0 ? table.force_pos_N : table.force_neg_N;
   const auto [i, share] = between(table.points, x);
-  return (1.0 - share) * force[i] + share * force[i + 1];
+  const bool forth = v > 0.0;
+  return on_line(forth ? table.force_pos_N : table.force_neg_N, i, share) +
+         on_line(forth ? table.damping_pos_Ns_per_m : table.damping_neg_Ns_per_m, i, share) * std::abs(v);
 }
 
-Learned learn(const Rows& rows, Where axis) {
+double rms(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, values.size())));
+}
+
+Learned learn(const Remainder& rows, const TableKind& kind) {
   Learned table;
-  table.axis = axis;
-  const auto x = arguments(rows, axis);
-  table.points = points_for(x, axis);
-  const auto n = static_cast<Index>(table.points.size());
+  table.axis = kind.axis;
+  table.points = points_for(rows, kind.axis);
+  const auto n = static_cast<Index>(table.points.size()), unknowns = kind.damped ? 2 * n : n;
+  const double usual_m_per_s = rms(rows.velocity_m_per_s);
   for (const bool forth : {true, false}) {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(n, n) * 20.0;  // as if twenty rows had said zero
-    Vector right = Vector::Zero(n);
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      if ((rows.velocity_m_per_s[k] > 0.0) != forth) continue;
-      const auto [at, share] = between(table.points, x[k]);
-      const auto i = static_cast<Index>(at);
-      normal(i, i) += (1.0 - share) * (1.0 - share);
-      normal(i + 1, i + 1) += share * share;
-      normal(i, i + 1) += share * (1.0 - share);
-      normal(i + 1, i) += share * (1.0 - share);
-      right[i] += (1.0 - share) * rows.remainder_N[k];
-      right[i + 1] += share * rows.remainder_N[k];
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(unknowns, unknowns) * kind.rows_of_zero;
+    Vector right = Vector::Zero(unknowns);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double v = rows.velocity_m_per_s[k];
+      if ((v > 0.0) != forth) continue;
+      const auto [i, share] = between(table.points, argument(rows, kind.axis, k));
+      const double speeds = std::abs(v) / usual_m_per_s;
+      const std::pair<Index, double> row[] = {
+          {i, 1.0 - share}, {i + 1, share}, {n + i, (1.0 - share) * speeds}, {n + i + 1, share * speeds}};
+      for (int a = 0; a < (kind.damped ? 4 : 2); ++a) {
+        for (int b = 0; b < (kind.damped ? 4 : 2); ++b) normal(row[a].first, row[b].first) += row[a].second * row[b].second;
+        right[row[a].first] += row[a].second * rows.force_N[k];
+      }
     }
-    const Vector force = normal.ldlt().solve(right);
-    (forth ? table.force_pos_N : table.force_neg_N).assign(force.data(), force.data() + n);
+    const Vector found = normal.ldlt().solve(right);
+    (forth ? table.force_pos_N : table.force_neg_N).assign(found.data(), found.data() + n);
+    if (!kind.damped) continue;
+    auto& damping = forth ? table.damping_pos_Ns_per_m : table.damping_neg_Ns_per_m;
+    for (Index i = n; i < unknowns; ++i) damping.push_back(found[i] / usual_m_per_s);
   }
   return table;
 }
 
-void judge(Learned& table, const Rows& rows) {
-  const auto x = arguments(rows, table.axis);
-  double before = 0.0, after = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double r = rows.remainder_N[k];
-    before += r * r;
-    after += std::pow(r - read(table, x[k], rows.velocity_m_per_s[k]), 2);
+/// Share of the remainder that such a table explains where it was not learned, and that remainder's RMS.
+std::pair<double, double> share_unseen(const Remainder& all, const TableKind& kind) {
+  double before = 0.0, after = 0.0, count = 0.0;
+  for (std::size_t f = 0; f < all.folds; ++f) {
+    Remainder seen = all.part(f, false), unseen = all.part(f, true);
+    if (seen.size() < fewest_to_learn || unseen.size() < fewest_to_judge) continue;
+    take_off_numbers(seen, {&unseen, 1});
+    const Learned table = learn(seen, kind);
+    for (std::size_t k = 0; k < unseen.size(); ++k) {
+      const double r = unseen.force_N[k];
+      before += r * r;
+      after += std::pow(r - read(table, argument(unseen, kind.axis, k), unseen.velocity_m_per_s[k]), 2);
+      count += 1.0;
+    }
   }
-  table.share_held_out = before > 0.0 ? 1.0 - after / before : 0.0;
-  table.remainder_N = std::sqrt(before / static_cast<double>(std::max<std::size_t>(1, x.size())));
-  double largest = 0.0;
-  for (std::size_t i = 0; i < table.points.size(); ++i)
-    largest = std::max({largest, std::abs(table.force_pos_N[i]), std::abs(table.force_neg_N[i])});
+  return {before > 0.0 ? 1.0 - after / before : -1.0, std::sqrt(before / std::max(1.0, count))};
+}
+
+/// Where the table's forces are more than half of the largest.
+void tell_where(Learned& table, double speed_m_per_s) {
+  std::vector<double> size;
+  for (const double x : table.points)
+    size.push_back(std::max(std::abs(read(table, x, speed_m_per_s)), std::abs(read(table, x, -speed_m_per_s))));
+  const double largest = *std::ranges::max_element(size);
   table.low = table.points.back();
   table.high = table.points.front();
   for (std::size_t i = 0; i < table.points.size(); ++i)
-    if (std::max(std::abs(table.force_pos_N[i]), std::abs(table.force_neg_N[i])) > 0.5 * largest) {
+    if (size[i] > 0.5 * largest) {
       table.low = std::min(table.low, table.points[i]);
       table.high = std::max(table.high, table.points[i]);
     }
@@ -137,19 +134,22 @@ void judge(Learned& table, const Rows& rows) {
 
 }  // namespace
 
-Learned learn_remainder(const InverseModel& model, const Candidate& at, const InverseModel& others,
-                        const Candidate& of_others) {
-  Rows rows = force_rows(model, at), unseen = force_rows(others, of_others);
+Learned learn_remainder(const InverseModel& model, const Candidate& at) {
+  Remainder rows = remainder_of(model, at);
   Learned best;
-  best.share_held_out = -1.0;
-  if (rows.remainder_N.size() < 200 || unseen.remainder_N.size() < 50) return best;
-  take_off_numbers(rows, unseen);
-  for (const Where axis : {Where::position, Where::velocity, Where::reversal}) {
-    Learned table = learn(rows, axis);
-    judge(table, unseen);
-    if (table.share_held_out > best.share_held_out) best = std::move(table);
+  best.share_unseen = -1.0;
+  if (rows.size() < fewest_to_learn) return best;
+  const TableKind* chosen = kinds;
+  for (const auto& kind : kinds) {
+    const auto [share, remainder_N] = share_unseen(rows, kind);
+    if (share > best.share_unseen) best.share_unseen = share, best.remainder_N = remainder_N, chosen = &kind;
   }
-  return best;
+  take_off_numbers(rows, {});
+  Learned table = learn(rows, *chosen);
+  table.share_unseen = best.share_unseen;
+  table.remainder_N = best.remainder_N;
+  tell_where(table, rms(rows.velocity_m_per_s));
+  return table;
 }
 
 void extend(plant::AxisParameters& axis, const Learned& learned) {
@@ -159,13 +159,18 @@ void extend(plant::AxisParameters& axis, const Learned& learned) {
   const std::string_view over = learned.axis == Where::position   ? "position_m"
                                 : learned.axis == Where::velocity ? "velocity_m_per_s"
                                                                   : "since_reversal_s";
+  const std::pair<std::string_view, const std::vector<double>*> given[] = {
+      {over, &learned.points},
+      {"force_pos_N", &learned.force_pos_N},
+      {"force_neg_N", &learned.force_neg_N},
+      {"damping_pos_Ns_per_m", &learned.damping_pos_Ns_per_m},
+      {"damping_neg_Ns_per_m", &learned.damping_neg_Ns_per_m}};
   std::size_t list = 0;
   for (const auto& parameter : entry->parameters) {
     if (!parameter.list) continue;
     auto& values = setting.lists.at(list++);
-    if (parameter.name == over) values = learned.points;
-    if (parameter.name == "force_pos_N") values = learned.force_pos_N;
-    if (parameter.name == "force_neg_N") values = learned.force_neg_N;
+    for (const auto& [name, points] : given)
+      if (parameter.name == name) values = *points;
   }
   axis.effects.push_back(std::move(setting));
 }

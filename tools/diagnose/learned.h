@@ -1,6 +1,7 @@
 #pragma once
 // What no hypothesis explains: does it repeat over position, speed or time since reversal, and with what force? A table
-// learned on the runs to learn from and judged on others, so that a disturbance that never comes back teaches nothing.
+// learned on some of the runs to learn from and judged on the others in turn, so that a disturbance that never comes back
+// teaches nothing, and the held-out runs have no say.
 
 #include <vector>
 
@@ -10,16 +11,15 @@ namespace feedtwin::tools::diagnosis {
 
 struct Learned {
   Where axis = Where::position;
-  std::vector<double> points, force_pos_N, force_neg_N;  ///< against positive motion
-  double share_held_out = 0.0;                           ///< of the remainder on runs that it was not learned from
-  double remainder_N = 0.0;                              ///< RMS of the remainder there
-  double low = 0.0, high = 0.0;                          ///< where most of it acts
+  std::vector<double> points, force_pos_N, force_neg_N;            ///< against positive motion
+  std::vector<double> damping_pos_Ns_per_m, damping_neg_Ns_per_m;  ///< times the speed, more; empty: none
+  double share_unseen = 0.0;                                       ///< of the remainder on runs that it was not learned from
+  double remainder_N = 0.0;                                        ///< RMS of the remainder there
+  double low = 0.0, high = 0.0;                                    ///< where most of it acts
 };
 
-/// The axis that explains most; `others` are the held-out runs.
-/// @param of_others the model as it is for the others: their lines may have phases of their own
-[[nodiscard]] Learned learn_remainder(const InverseModel& model, const Candidate& at, const InverseModel& others,
-                                      const Candidate& of_others);
+/// The axis that explains most of runs that it was not learned from; of a single run, of every other second.
+[[nodiscard]] Learned learn_remainder(const InverseModel& model, const Candidate& at);
 
 /// The plant's own term for it.
 void extend(plant::AxisParameters& axis, const Learned& learned);

@@ -60,10 +60,11 @@ std::string summary_of(const Diagnosis& diagnosis) {
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a table over {} explains "
         "{:.0f} % on runs that it was not learned from; it acts mostly from {:.4g} to {:.4g}.",
         diagnosis.unknown->remainder_N,
-        diagnosis.unknown->axis == Where::position   ? "position (m)"
-        : diagnosis.unknown->axis == Where::velocity ? "speed (m/s)"
-                                                     : "time since reversal (s)",
-        100.0 * diagnosis.unknown->share_held_out, diagnosis.unknown->low, diagnosis.unknown->high);
+        !diagnosis.unknown->damping_pos_Ns_per_m.empty() ? "position (m), of a force and a damping,"
+        : diagnosis.unknown->axis == Where::position     ? "position (m)"
+        : diagnosis.unknown->axis == Where::velocity     ? "speed (m/s)"
+                                                         : "time since reversal (s)",
+        100.0 * diagnosis.unknown->share_unseen, diagnosis.unknown->low, diagnosis.unknown->high);
   if (verdict == "cannot-tell") {
     std::vector<std::string> like;
     for (const auto& suspect : diagnosis.suspects) like.emplace_back(suspect.hypothesis->id);

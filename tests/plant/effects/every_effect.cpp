@@ -277,7 +277,8 @@ TEST(EveryEffect, OfTheContractIsRegistered) {
 TEST(EveryEffect, IsRefusedWhenItsSettingDoesNotFit) {
   EXPECT_THROW(FeedAxis(axis_with({{"warp_drive", {1.0}, {}}})), std::invalid_argument);
   EXPECT_THROW(FeedAxis(axis_with({{"cogging", {1.0}, {}}})), std::invalid_argument);
-  EXPECT_THROW(FeedAxis(axis_with({{"learned_residual", {}, {{1.0}, {1.0}, {}, {1.0}, {}}}})), std::invalid_argument);
+  EXPECT_THROW(FeedAxis(axis_with({{"learned_residual", {}, {{1.0}, {1.0}, {}, {1.0}, {}, {}, {}}}})),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -114,13 +114,18 @@ TEST(Laws, ForceAtSteadySpeed) {
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + (v > 0.0 ? 25.0 : -25.0); }},
       {{"frictional_lag", {0.01}, {}}, 0.0, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
       {{"backlash", {1e-5, 6e7, 2e3}, {}}, 0.0, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
-      {{"learned_residual", {}, {{-1.0, 1.0}, {}, {}, {-8.0, 12.0}, {}}},
+      {{"learned_residual", {}, {{-1.0, 1.0}, {}, {}, {-8.0, 12.0}, {}, {}, {}}},
        0.0,
        [](const Nominal& n, double, const Steady& s) { return n.all_N() + 2.0 + 10.0 * s.position_m; }},
-      {{"learned_residual", {}, {{}, {}, {0.0, 10.0}, {0.0, 30.0}, {0.0, -60.0}}},
+      {{"learned_residual", {}, {{}, {}, {0.0, 10.0}, {0.0, 30.0}, {0.0, -60.0}, {}, {}}},
        0.0,
        [](const Nominal& n, double v, const Steady& s) { return n.all_N() + (v > 0.0 ? 3.0 : -6.0) * s.time_s; }},
-      {{"learned_residual", {}, {{}, {0.0, 0.1}, {}, {0.0, 20.0}, {-5.0, -5.0}}},
+      {{"learned_residual", {}, {{-1.0, 1.0}, {}, {}, {2.0, 2.0}, {-3.0, -3.0}, {50.0, 250.0}, {-100.0, -300.0}}},
+       0.0,
+       [](const Nominal& n, double v, const Steady& s) {
+         return n.all_N() + (v > 0.0 ? 2.0 + (150.0 + 100.0 * s.position_m) * v : -3.0 + (200.0 + 100.0 * s.position_m) * v);
+       }},
+      {{"learned_residual", {}, {{}, {0.0, 0.1}, {}, {0.0, 20.0}, {-5.0, -5.0}, {}, {}}},
        0.0,
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + (v > 0.0 ? 200.0 * v : -5.0); }},
   };

@@ -4,58 +4,15 @@
 
 #include <algorithm>
 
-#include "tools/diagnose/forward/extended_axis.h"
-#include "tools/diagnose/forward/polish.h"
-
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double nats_per_parameter = 4.0;
 constexpr double clearly_nats = 12.0, clearly_deviations = 1.5;
 /// A rival that the inverse model finds this much worse, as a share of what the named one brings, is not simulated.
 constexpr double hopeless = 0.5;
 constexpr int iterations = 6;
-/// Of polishing: what is named once and well, since the last polish goes on from there; a rival from numbers that are good.
-constexpr int first_iterations = 8, rival_iterations = 3;
-
-double freedom(const Candidate& model) {
-  double count = 0.0;
-  for (const auto& effect : model.effects) count += static_cast<double>(freedom(*effect.hypothesis));
-  return count;
-}
-
-bool can_be_named(const Active& active, const plant::AxisParameters& axis) {
-  return worth_naming(active) && possible(active, axis);
-}
-
-/// The model with all numbers that the other has too as the other has them.
-Candidate with_numbers_of(const Candidate& other, Candidate model) {
-  model.axis = other.axis;
-  for (auto& effect : model.effects)
-    for (const auto& theirs : other.effects)
-      if (theirs.hypothesis == effect.hypothesis) effect.q = theirs.q;
-  return model;
-}
 
 }  // namespace
-
-Arbiter::Ruling Arbiter::rule(const Fit& fit, const Candidate& start, int most_iterations) const {
-  PolishSettings settings;
-  settings.rounds = 1;
-  settings.most_iterations = most_iterations;
-  settings.least_fall_nats = 2.0;
-  settings.coloured_from_start = true;
-  settings.intervals = false;
-  Ruling ruling{fit, start, likelihood(forward_, extended(start)), 0.0};
-  const auto take = [&](const Candidate& model) {
-    const auto found = likelihood(forward_, extended(model));
-    if (found.total() > ruling.likelihood.total()) ruling.model = model, ruling.likelihood = found;
-  };
-  take(polish(forward_, fitter_, start, settings).model);
-  ruling.value = ruling.likelihood.total() - 0.5 * fitter_.deviations(ruling.model.axis).squaredNorm() -
-                 nats_per_parameter * freedom(ruling.model);
-  return ruling;
-}
 
 bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e,
                         std::vector<const Hypothesis*>& beaten) const {
@@ -76,16 +33,9 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, iterations);
     if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
-    // its lead must not be that of numbers that would do for both: each starts from the other's where that is better
-    const Candidate beside = with_numbers_of(now.model, other.model);
-    const bool better_beside =
-        likelihood(forward_, extended(beside)).total() > likelihood(forward_, extended(other.model)).total();
-    const Ruling rival = rule(other, better_beside ? beside : other.model, rival_iterations);
+    const Ruling rival = rule_beside(now, other, forward_, fitter_);
     if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
-    if (rival.value > now.value) {
-      Ruling again = rule(fit, with_numbers_of(rival.model, now.model), rival_iterations);
-      if (again.value > now.value) now = std::move(again);
-    }
+    if (rival.value > now.value) now = reconsidered(now, rival, forward_, fitter_);
     const auto difference = compared(rival.likelihood, now.likelihood);
     const double better = rival.value - now.value;
     progress_(fmt::format("closed loop, {} in place of {}: {:+.0f} nats, {:+.1f} deviations", score.hypothesis->id,
@@ -108,7 +58,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
 Candidate Arbiter::settle(SearchResult& found, Fit& fit) const {
   if (found.found.empty()) return fit.model;
   constexpr int most_exchanges = 3;
-  Ruling now = rule(fit, fit.model, first_iterations);
+  Ruling now = rule(fit, forward_, fitter_);
   std::vector<const Hypothesis*> beaten;
   int exchanges = 0;
   for (std::size_t e = 0; e < fit.model.effects.size();) {

@@ -3,7 +3,7 @@
 // loop, and the likelihoods of what is left over are compared. Takes a better one in a named one's place; where none is
 // clearly better both stay in question; one that is clearly worse is ruled out.
 
-#include "tools/diagnose/forward/likelihood.h"
+#include "tools/diagnose/forward/ruling.h"
 #include "tools/diagnose/search.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -18,13 +18,6 @@ class Arbiter {
   Candidate settle(SearchResult& found, Fit& fit) const;
 
  private:
-  struct Ruling {
-    Fit fit;          ///< by the inverse model
-    Candidate model;  ///< polished in closed loop
-    Likelihood likelihood;
-    double value = 0.0;  ///< nats, less what its parameters cost
-  };
-  [[nodiscard]] Ruling rule(const Fit& fit, const Candidate& start, int most_iterations) const;
   /// @param beaten were exchanged before and are not asked again
   [[nodiscard]] bool exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t effect,
                                std::vector<const Hypothesis*>& beaten) const;

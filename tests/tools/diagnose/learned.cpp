@@ -1,0 +1,79 @@
+// Tables of what no hypothesis explains: what repeats over the travel is learned and simulated, what does not teaches
+// nothing.
+
+#include "tools/diagnose/learned.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/made_case.h"
+#include "tools/diagnose/forward/forward_model.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+/// Viscous friction that waves over the travel, which no effect of the catalogue is.
+double washboard_Ns_per_m(double position_m) {
+  return 120.0 * std::sin(2.0 * 3.141592653589793 * position_m / 0.009);
+}
+
+plant::EffectSetting washboard() {
+  plant::EffectSetting table{"learned_residual", {}, {{}, {}, {}, {}, {}, {}, {}}};
+  for (int i = -60; i <= 60; ++i) {
+    const double at_m = 0.0005 * i;
+    table.lists[0].push_back(at_m);
+    for (const std::size_t force : {3U, 4U}) table.lists[force].push_back(0.0);
+    table.lists[5].push_back(washboard_Ns_per_m(at_m));
+    table.lists[6].push_back(-washboard_Ns_per_m(at_m));
+  }
+  return table;
+}
+
+TEST(Learned, AForceThatWavesOverTheTravelAndGrowsWithSpeed) {
+  auto truth = plant::source_axis();
+  truth.effects.push_back(washboard());
+  const auto data = tests::short_case(truth, plant::source_axis());
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Learned table = learn_remainder(model, {data.axis, {}});
+  EXPECT_GT(table.share_unseen, 0.5);
+  EXPECT_EQ(table.axis, Where::position);
+  ASSERT_EQ(table.damping_pos_Ns_per_m.size(), table.points.size());
+  // forth and back differ in sign, and the numbers may take up a mean: what waves is told by differences
+  double same = 0.0, size = 0.0, found = 0.0;
+  for (std::size_t i = 8; i + 8 < table.points.size(); ++i) {  // away from where the motion turns
+    const double there = washboard_Ns_per_m(table.points[i]);
+    const double learned = 0.5 * (table.damping_pos_Ns_per_m[i] - table.damping_neg_Ns_per_m[i]);
+    same += there * learned, size += there * there, found += learned * learned;
+  }
+  EXPECT_GT(same / std::sqrt(size * found), 0.9);
+  EXPECT_NEAR(std::sqrt(found / size), 1.0, 0.35);
+
+  auto extended = data.axis;
+  extend(extended, table);
+  const ForwardModel held_out(data.holdout, data);
+  EXPECT_LT(held_out.nrmse(extended).at("torque_cmd_Nm"), 0.6 * held_out.nrmse(data.axis).at("torque_cmd_Nm"));
+}
+
+TEST(Learned, ForcesOfAMomentTeachNothing) {
+  auto data = tests::short_case(plant::source_axis(), plant::source_axis());
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> unit;
+  for (auto& run : data.fit) {
+    double disturbance_Nm = 0.0;
+    for (double& command : run.channels.at("torque_cmd_Nm")) {
+      disturbance_Nm = 0.99 * disturbance_Nm + 0.0005 * unit(random);
+      command += disturbance_Nm;
+    }
+  }
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Learned table = learn_remainder(model, {data.axis, {}});
+  EXPECT_LT(table.share_unseen, 0.1);
+  EXPECT_GT(table.remainder_N, 0.5);
+}
+
+}  // namespace
+}  // namespace feedtwin

@@ -1,0 +1,67 @@
+#include "tools/diagnose/forward/ruling.h"
+
+#include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/polish.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double nats_per_parameter = 4.0;
+/// Of polishing: the first explanation once and well, since the last polish goes on from there; others from good numbers.
+constexpr int first_iterations = 8, further_iterations = 3;
+
+double freedom(const Candidate& model) {
+  double count = 0.0;
+  for (const auto& effect : model.effects) count += static_cast<double>(freedom(*effect.hypothesis));
+  return count;
+}
+
+/// The model with all numbers that the other has too as the other has them.
+Candidate with_numbers_of(const Candidate& other, Candidate model) {
+  model.axis = other.axis;
+  for (auto& effect : model.effects)
+    for (const auto& theirs : other.effects)
+      if (theirs.hypothesis == effect.hypothesis) effect.q = theirs.q;
+  return model;
+}
+
+Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
+                int most_iterations) {
+  PolishSettings settings;
+  settings.rounds = 1;
+  settings.most_iterations = most_iterations;
+  settings.least_fall_nats = 2.0;
+  settings.coloured_from_start = true;
+  settings.intervals = false;
+  Ruling ruling{fit, start, likelihood(forward, extended(start)), 0.0};
+  const Candidate better = polish(forward, fitter, start, settings).model;
+  if (auto found = likelihood(forward, extended(better)); found.total() > ruling.likelihood.total())
+    ruling.model = better, ruling.likelihood = std::move(found);
+  ruling.value = ruling.likelihood.total() - 0.5 * fitter.deviations(ruling.model.axis).squaredNorm() -
+                 nats_per_parameter * freedom(ruling.model);
+  return ruling;
+}
+
+}  // namespace
+
+Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
+  return polished(fit, fit.model, forward, fitter, first_iterations);
+}
+
+Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
+  const Candidate beside = with_numbers_of(before.model, fit.model);
+  const double own = likelihood(forward, extended(fit.model)).total();
+  const bool better = likelihood(forward, extended(beside)).total() > own;
+  return polished(fit, better ? beside : fit.model, forward, fitter, further_iterations);
+}
+
+Ruling reconsidered(const Ruling& outdone, const Ruling& by, const ForwardModel& forward, const Fitter& fitter) {
+  Ruling again = polished(outdone.fit, with_numbers_of(by.model, outdone.model), forward, fitter, further_iterations);
+  return again.value > outdone.value ? again : outdone;
+}
+
+bool can_be_named(const Active& active, const plant::AxisParameters& axis) {
+  return worth_naming(active) && possible(active, axis);
+}
+
+}  // namespace feedtwin::tools::diagnosis

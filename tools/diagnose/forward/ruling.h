@@ -1,0 +1,27 @@
+#pragma once
+// What the closed loop makes of an explanation: its numbers as polished there, and how likely the runs are under it. Numbers
+// that would do for two explanations must not decide between them, so each also starts from the other's.
+
+#include "tools/diagnose/forward/likelihood.h"
+#include "tools/diagnose/search.h"
+
+namespace feedtwin::tools::diagnosis {
+
+struct Ruling {
+  Fit fit;          ///< by the inverse model
+  Candidate model;  ///< polished in closed loop
+  Likelihood likelihood;
+  double value = 0.0;  ///< nats, less what its parameters cost
+};
+
+[[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
+/// Another explanation, from its own numbers or from those of one that was polished before, whichever are likelier.
+[[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
+/// One that was outdone, polished again from the numbers of what outdid it; as it was where that does not help.
+[[nodiscard]] Ruling reconsidered(const Ruling& outdone, const Ruling& by, const ForwardModel& forward,
+                                  const Fitter& fitter);
+
+/// Is it a finding, of a size that is possible on this axis?
+[[nodiscard]] bool can_be_named(const Active& active, const plant::AxisParameters& axis);
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,68 @@
+#include "tools/diagnose/remainder.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "tools/diagnose/taken_up.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr auto columns = {&Remainder::force_N, &Remainder::position_m, &Remainder::velocity_m_per_s,
+                          &Remainder::acceleration_m_per_s2, &Remainder::since_reversal_s};
+
+Eigen::Map<Vector> force(Remainder& rows) {
+  return {rows.force_N.data(), static_cast<Index>(rows.size())};
+}
+
+}  // namespace
+
+Remainder Remainder::part(std::size_t which, bool of_it) const {
+  Remainder some;
+  some.folds = folds;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if ((fold[k] == which) != of_it) continue;
+    for (auto column : columns) (some.*column).push_back((this->*column)[k]);
+    some.fold.push_back(fold[k]);
+  }
+  return some;
+}
+
+Remainder remainder_of(const InverseModel& model, const Candidate& at) {
+  const Vector residual = model.residual(at.axis, at.effects);
+  const bool alone = model.tracks().size() == 1;
+  Remainder rows;
+  rows.folds = alone ? 2 : model.tracks().size();
+  for (std::size_t run = 0; run < model.tracks().size(); ++run) {
+    Vector sum;
+    const Segment* any = nullptr;
+    for (const auto& s : model.segments()) {
+      const auto& e = model.equations()[s.equation];
+      if (s.run != run || s.size == 0 || e.slip || e.power) continue;
+      add(sum, residual.segment(s.start, s.size));
+      any = &s;
+    }
+    const Track& track = model.tracks()[run];
+    for (Index i = 0; any != nullptr && i < any->size; ++i) {
+      const Index k = model.sample_of(*any, i);
+      if (std::abs(track.centred_m_per_s[k]) < 5.0 * standstill_m_per_s) continue;
+      rows.force_N.push_back(sum[i]);
+      rows.position_m.push_back(track.position_m[k]);
+      rows.velocity_m_per_s.push_back(track.centred_m_per_s[k]);
+      rows.acceleration_m_per_s2.push_back(slow_acceleration_m_per_s2(track, k));
+      rows.since_reversal_s.push_back(track.since_reversal_s[k]);
+      const auto second = static_cast<std::size_t>(static_cast<double>(k) * track.sample_s);
+      rows.fold.push_back(alone ? second % 2 : run);
+    }
+  }
+  return rows;
+}
+
+void take_off_numbers(Remainder& rows, std::span<Remainder> others) {
+  const auto of = [](const Remainder& r) { return columns_of_numbers(r.acceleration_m_per_s2, r.velocity_m_per_s); };
+  const Vector numbers = of(rows).colPivHouseholderQr().solve(force(rows));
+  force(rows) -= of(rows) * numbers;
+  for (Remainder& other : others) force(other) -= of(other) * numbers;
+}
+
+}  // namespace feedtwin::tools::diagnosis
