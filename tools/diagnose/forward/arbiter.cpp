@@ -33,9 +33,10 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, iterations);
     if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
-    const Ruling rival = rule_beside(now, other, forward_, fitter_);
+    Ruling rival = rule_beside(now, other, forward_, fitter_);
     if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
-    if (rival.value > now.value) now = reconsidered(now, rival, forward_, fitter_);
+    contest(now, rival, forward_, fitter_);
+    if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
     const auto difference = compared(rival.likelihood, now.likelihood);
     const double better = rival.value - now.value;
     progress_(fmt::format("closed loop, {} in place of {}: {:+.0f} nats, {:+.1f} deviations", score.hypothesis->id,

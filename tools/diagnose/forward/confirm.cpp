@@ -1,5 +1,9 @@
 #include "tools/diagnose/forward/confirm.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "tools/diagnose/forward/extended_axis.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -18,6 +22,20 @@ Confirmation confirm(const ForwardModel& forward, const Fitter& fitter, const Wh
     if (error > 0.0 && bears_out(channel) && less.at(channel) > found.error_ratio * error)
       found.channel = channel, found.error_ratio = less.at(channel) / error;
   return found;
+}
+
+void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
+                    const std::function<void(std::string_view)>& progress) {
+  for (std::size_t e = fit.model.effects.size(); e-- > 0;) {
+    const auto* hypothesis = fit.model.effects[e].hypothesis;
+    if (!worth_naming(fit.model.effects[e]) || hypothesis->number_of_the_model) continue;
+    auto seen = confirm(forward, fitter, found.whitening, fit.model, e);
+    progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
+                         seen.channel.empty() ? "no channel" : seen.channel, seen.error_ratio));
+    if (seen.error_ratio > hypothesis->least_error_ratio) continue;
+    fit = std::move(seen.without);
+    std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
+  }
 }
 
 }  // namespace feedtwin::tools::diagnosis

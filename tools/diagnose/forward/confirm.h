@@ -2,7 +2,11 @@
 // Two engines must agree: an effect that the inverse model asked for is named only if the closed-loop simulation of runs
 // that were not fitted comes closer to the recording with it than with the best model without it.
 
+#include <functional>
+#include <string_view>
+
 #include "tools/diagnose/forward/forward_model.h"
+#include "tools/diagnose/search.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -16,5 +20,9 @@ struct Confirmation {
 /// @param model fitted by the inverse model, the effect among others in it
 [[nodiscard]] Confirmation confirm(const ForwardModel& forward, const Fitter& fitter, const Whitening& whitening,
                                    const Candidate& model, std::size_t effect);
+
+/// Drops what the second engine does not bear out. Numbers of the model are told by how far the others would have to move.
+void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
+                    const std::function<void(std::string_view)>& progress);
 
 }  // namespace feedtwin::tools::diagnosis

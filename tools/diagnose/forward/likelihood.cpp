@@ -67,7 +67,8 @@ Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis) {
 }
 
 Comparison compared(const Likelihood& one, const Likelihood& other) {
-  constexpr double most_of_a_median = 10.0;  // a stretch's say in the deviations, or two of them outvote all others
+  // a stretch's say in the deviations, or two of them outvote all others; but of what a single tick cannot make
+  constexpr double most_of_a_median = 10.0, beyond_a_tick = 50.0;
   const std::size_t n = std::min(one.stretches.size(), other.stretches.size());
   if (n == 0) return {};
   std::vector<double> difference(n), size(n);
@@ -78,7 +79,7 @@ Comparison compared(const Likelihood& one, const Likelihood& other) {
   const double nats = std::accumulate(difference.begin(), difference.end(), 0.0);
   const auto middle = size.begin() + static_cast<std::ptrdiff_t>(n / 2);
   std::ranges::nth_element(size, middle);
-  const double most = most_of_a_median * *middle + 1e-9;
+  const double most = std::max(most_of_a_median * *middle, beyond_a_tick);
   double sum = 0.0, squares = 0.0;
   for (double& d : difference) sum += d = std::clamp(d, -most, most);
   const double mean = sum / static_cast<double>(n);

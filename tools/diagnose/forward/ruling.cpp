@@ -48,6 +48,10 @@ Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
   return polished(fit, fit.model, forward, fitter, first_iterations);
 }
 
+Ruling rule_again(const Fit& fit, const Candidate& polished_before, const ForwardModel& forward, const Fitter& fitter) {
+  return polished(fit, polished_before, forward, fitter, further_iterations);
+}
+
 Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
   const Candidate beside = with_numbers_of(before.model, fit.model);
   const double own = likelihood(forward, extended(fit.model)).total();
@@ -55,9 +59,20 @@ Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& for
   return polished(fit, better ? beside : fit.model, forward, fitter, further_iterations);
 }
 
-Ruling reconsidered(const Ruling& outdone, const Ruling& by, const ForwardModel& forward, const Fitter& fitter) {
-  Ruling again = polished(outdone.fit, with_numbers_of(by.model, outdone.model), forward, fitter, further_iterations);
-  return again.value > outdone.value ? again : outdone;
+void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter) {
+  constexpr int most_rounds = 2;
+  constexpr double hopeless_nats = 1500.0, of_consequence_nats = 10.0;
+  for (int round = 0; round < most_rounds; ++round) {
+    Ruling &behind = one.value < other.value ? one : other, &ahead = one.value < other.value ? other : one;
+    if (ahead.value - behind.value > hopeless_nats) return;
+    Ruling further = polished(behind.fit, behind.model, forward, fitter, further_iterations);
+    if (further.value < behind.value + of_consequence_nats) {
+      Ruling beside = polished(behind.fit, with_numbers_of(ahead.model, behind.model), forward, fitter, further_iterations);
+      if (beside.value > further.value) further = std::move(beside);
+    }
+    if (further.value < behind.value + of_consequence_nats) return;
+    behind = std::move(further);
+  }
 }
 
 bool can_be_named(const Active& active, const plant::AxisParameters& axis) {

@@ -15,11 +15,14 @@ struct Ruling {
 };
 
 [[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
+/// The same model where it was polished before.
+[[nodiscard]] Ruling rule_again(const Fit& fit, const Candidate& polished_before, const ForwardModel& forward,
+                                const Fitter& fitter);
 /// Another explanation, from its own numbers or from those of one that was polished before, whichever are likelier.
 [[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
-/// One that was outdone, polished again from the numbers of what outdid it; as it was where that does not help.
-[[nodiscard]] Ruling reconsidered(const Ruling& outdone, const Ruling& by, const ForwardModel& forward,
-                                  const Fitter& fitter);
+/// The one that is behind is polished further, from its own numbers or the other's, as long as that helps and it is not
+/// hopelessly behind: what decides must not be who was polished more.
+void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter);
 
 /// Is it a finding, of a size that is possible on this axis?
 [[nodiscard]] bool can_be_named(const Active& active, const plant::AxisParameters& axis);

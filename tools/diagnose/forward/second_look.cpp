@@ -14,7 +14,7 @@ namespace {
 constexpr int iterations = 6;
 constexpr std::size_t most_asked = 4;
 constexpr double least_gain = 50.0, largest_p = 0.01;   // by the inverse model
-constexpr double beyond_noise = 1.5;                    // a channel that is worth the question
+constexpr double beyond_noise = 2.0;                    // a channel that is worth the question
 constexpr double least_ratio = 1.5, least_share = 0.5;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
 
@@ -50,12 +50,14 @@ Candidate look_again(const ForwardModel& forward, const Fitter& fitter, SearchRe
   for (const auto& score : found.last.scores)
     if (can_be_asked(score, fit.model, found.last) && asked.size() < most_asked) asked.push_back(score);
   if (asked.empty()) return settled;
-  Fit start = fit;
-  start.model = settled;
-  Ruling now = rule(start, forward, fitter);
-  const Nrmse errors = forward.nrmse(extended(now.model)), floor = forward.noise_floor(extended(now.model));
-  if (std::ranges::none_of(errors, [&](const auto& e) { return e.second > beyond_noise * floor.at(e.first); }))
-    return now.model;
+  const auto floor = forward.noise_floor(extended(settled));
+  const auto is_off = [&](const Nrmse& errors) {
+    return std::ranges::any_of(errors, [&](const auto& e) { return e.second > beyond_noise * floor.at(e.first); });
+  };
+  if (!is_off(forward.nrmse(extended(settled)))) return settled;
+  const Ruling now = found.found.empty() ? rule(fit, forward, fitter) : rule_again(fit, settled, forward, fitter);
+  const Nrmse errors = forward.nrmse(extended(now.model));
+  if (!is_off(errors)) return now.model;
   std::optional<Ruling> best;
   const Score* better = nullptr;
   for (const auto& score : asked) {

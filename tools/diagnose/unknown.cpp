@@ -1,0 +1,39 @@
+#include "tools/diagnose/unknown.h"
+
+#include "tools/diagnose/forward/closest.h"
+#include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/verdict.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double smallest_share_unseen = 0.35, smallest_share_of_use = 0.1;  // of a table: to be a verdict, to be used
+constexpr double smallest_remainder_N = 1.0;  // that makes a verdict; a table is of use from any
+
+}  // namespace
+
+Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
+  std::erase_if(result.effects, [&](const NamedEffect& e) { return rests_on_force(*e.hypothesis); });
+  result.verdict = "unknown";
+  Candidate told = found.recalibrated.model;
+  for (const auto& active : final.effects)
+    if (!rests_on_force(*active.hypothesis)) told.effects.push_back(active);
+  return told;
+}
+
+bool repeats(const Learned& learned) {
+  return learned.share_unseen > smallest_share_unseen && learned.remainder_N > smallest_remainder_N;
+}
+
+plant::AxisParameters with_table(const ForwardModel& forward, const Fitter& fitter, const Candidate& told,
+                                 const Learned& learned) {
+  const Candidate plain = polished_if_closer(forward, fitter, told);
+  if (learned.share_unseen < smallest_share_of_use) return extended(plain, worth_naming).common;
+  Candidate more = plain;
+  extend(more.axis, learned);
+  more = polished_if_closer(forward, fitter, more);
+  const auto axis = [&](const Candidate& model) { return with_phases_of(told, extended(model, worth_naming).common); };
+  return extended(closest(forward, {axis(plain), axis(more)}) == 1 ? more : plain, worth_naming).common;
+}
+
+}  // namespace feedtwin::tools::diagnosis

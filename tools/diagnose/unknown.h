@@ -1,0 +1,21 @@
+#pragma once
+// What is told where the catalogue does not reach: no name that rests on the force, and a table of what repeats.
+
+#include "tools/diagnose/diagnosis.h"
+#include "tools/diagnose/forward/forward_model.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// Takes back the names that rest on the force; what is left of the model.
+[[nodiscard]] Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found,
+                                                          const Candidate& final);
+
+/// Is it more than a table of use: a finding of its own?
+[[nodiscard]] bool repeats(const Learned& learned);
+
+/// The model as the closed loop has its numbers, with the table where that brings the runs of the fit closer; without one
+/// that is of no use.
+[[nodiscard]] plant::AxisParameters with_table(const ForwardModel& forward, const Fitter& fitter, const Candidate& told,
+                                               const Learned& learned);
+
+}  // namespace feedtwin::tools::diagnosis
