@@ -9,11 +9,14 @@ namespace feedtwin::tools {
 namespace {
 
 /// Speed at the first row: the slope there of the parabola through three rows, so that an axis that sets off from rest is at
-/// rest. 0 where that slope is within what the encoder's rounding of the three can make of it.
+/// rest. So is one that has not moved in the second row, or whose parabola would have to come from the other side: it sets
+/// off later. 0 too where the slope is within what the encoder's rounding of the three can make of it.
 double start_velocity(std::span<const double> position_m, const plant::AxisParameters& nominal, double tick_s) {
   const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
-  const double step_m = 0.5 * (4.0 * (position_m[1] - position_m[0]) - (position_m[2] - position_m[0]));
-  return std::abs(step_m) > 2.0 * count_m ? step_m / tick_s : 0.0;
+  const double first_m = position_m[1] - position_m[0];
+  const double slope_m = 0.5 * (4.0 * first_m - (position_m[2] - position_m[0]));
+  const bool moves = std::abs(first_m) > 1.5 * count_m && std::abs(slope_m) > 2.0 * count_m;
+  return moves && slope_m * first_m > 0.0 ? slope_m / tick_s : 0.0;
 }
 
 /// Eqs. 7 and 11 at a speed, without the idle power.

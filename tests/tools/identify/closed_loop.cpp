@@ -91,31 +91,33 @@ TEST(ClosedLoop, TheRightAxisGivesTheRecordedCommandBack) {
   }
 }
 
-// A run may begin at rest under torque, or in the middle of a motion: the simulation begins as the axis did.
+// A run may begin at rest under torque, a tick before it, or in the middle of a motion: the simulation begins as the axis
+// did.
 TEST(ClosedLoop, BeginsAsTheAxisDid) {
   std::mt19937_64 random(23);
   std::uniform_real_distribution<double> torque(0.35, 0.9), speed(0.02, 0.2);
   constexpr double tick_s = 1e-3;
   constexpr int rows = 40;
-  for (int i = 0; i < 40; ++i) {
-    const bool moving = i % 2 == 1;
+  for (int i = 0; i < 60; ++i) {
+    const bool moving = i % 3 == 1, later = i % 3 == 2;
     plant::FeedAxis axis(plant::source_axis());
     axis.place(0.0, moving ? speed(random) : 0.0);
-    const plant::AxisCommand command{.torque_Nm = torque(random)};
+    const double most_Nm = torque(random);
+    const auto command_at = [&](int row) { return plant::AxisCommand{.torque_Nm = later && row == 0 ? 0.0 : most_Nm}; };
     Recording recording;
     recording.sample_s = tick_s;
     for (int k = 0; k < rows; ++k) {
-      recording.channels[std::string(channel::torque_cmd_Nm)].push_back(command.torque_Nm);
+      recording.channels[std::string(channel::torque_cmd_Nm)].push_back(command_at(k).torque_Nm);
       recording.channels[std::string(channel::position_m)].push_back(axis.shown_position_m());
-      axis.step(command, tick_s);
+      axis.step(command_at(k), tick_s);
     }
     const ClosedLoopRun run(recording, plant::source_axis(), std::nullopt);
     plant::FeedAxis again(plant::source_axis());
     const auto simulated = simulate_closed_loop(run, again);
     // half of a count a tick is 5 mN m in the stand-in's rate; to take one row's travel for its speed, 70 and more
     for (int k = 0; k < rows; ++k)
-      ASSERT_NEAR(simulated.torque_Nm[static_cast<std::size_t>(k)], command.torque_Nm, 0.012)
-          << (moving ? "moving" : "at rest") << ", row " << k << ", torque " << command.torque_Nm;
+      ASSERT_NEAR(simulated.torque_Nm[static_cast<std::size_t>(k)], command_at(k).torque_Nm, 0.012)
+          << (moving ? "moving" : "at rest") << ", row " << k << ", torque " << most_Nm;
   }
 }
 
