@@ -99,13 +99,26 @@ Learned learn(const Remainder& rows, const TableKind& kind) {
   return table;
 }
 
-/// Share of the remainder that such a table explains where it was not learned, and that remainder's RMS.
-std::pair<double, double> share_unseen(const Remainder& all, const TableKind& kind) {
-  double before = 0.0, after = 0.0, count = 0.0;
+/// Rows to learn from and others to judge by, both without what the numbers could do.
+struct Fold {
+  Remainder seen, unseen;
+};
+
+std::vector<Fold> folds_of(const Remainder& all) {
+  std::vector<Fold> folds;
   for (std::size_t f = 0; f < all.folds; ++f) {
-    Remainder seen = all.part(f, false), unseen = all.part(f, true);
-    if (seen.size() < fewest_to_learn || unseen.size() < fewest_to_judge) continue;
-    take_off_numbers(seen, {&unseen, 1});
+    Fold fold{all.part(f, false), all.part(f, true)};
+    if (fold.seen.size() < fewest_to_learn || fold.unseen.size() < fewest_to_judge) continue;
+    take_off_numbers(fold.seen, &fold.unseen);
+    folds.push_back(std::move(fold));
+  }
+  return folds;
+}
+
+/// Share of the remainder that such a table explains where it was not learned, and that remainder's RMS.
+std::pair<double, double> share_unseen(const std::vector<Fold>& folds, const TableKind& kind) {
+  double before = 0.0, after = 0.0, count = 0.0;
+  for (const auto& [seen, unseen] : folds) {
     const Learned table = learn(seen, kind);
     for (std::size_t k = 0; k < unseen.size(); ++k) {
       const double r = unseen.force_N[k];
@@ -139,12 +152,13 @@ Learned learn_remainder(const InverseModel& model, const Candidate& at) {
   Learned best;
   best.share_unseen = -1.0;
   if (rows.size() < fewest_to_learn) return best;
+  const auto folds = folds_of(rows);
   const TableKind* chosen = kinds;
   for (const auto& kind : kinds) {
-    const auto [share, remainder_N] = share_unseen(rows, kind);
+    const auto [share, remainder_N] = share_unseen(folds, kind);
     if (share > best.share_unseen) best.share_unseen = share, best.remainder_N = remainder_N, chosen = &kind;
   }
-  take_off_numbers(rows, {});
+  take_off_numbers(rows);
   Learned table = learn(rows, *chosen);
   table.share_unseen = best.share_unseen;
   table.remainder_N = best.remainder_N;

@@ -58,11 +58,12 @@ Remainder remainder_of(const InverseModel& model, const Candidate& at) {
   return rows;
 }
 
-void take_off_numbers(Remainder& rows, std::span<Remainder> others) {
+void take_off_numbers(Remainder& rows, Remainder* others) {
   const auto of = [](const Remainder& r) { return columns_of_numbers(r.acceleration_m_per_s2, r.velocity_m_per_s); };
-  const Vector numbers = of(rows).colPivHouseholderQr().solve(force(rows));
-  force(rows) -= of(rows) * numbers;
-  for (Remainder& other : others) force(other) -= of(other) * numbers;
+  const Eigen::MatrixXd own = of(rows);
+  const Vector numbers = own.colPivHouseholderQr().solve(force(rows));
+  force(rows) -= own * numbers;
+  if (others != nullptr) force(*others) -= of(*others) * numbers;
 }
 
 }  // namespace feedtwin::tools::diagnosis

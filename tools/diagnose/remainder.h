@@ -1,7 +1,6 @@
 #pragma once
 // What a model leaves over of the force, moment by moment, with where the axis was.
 
-#include <span>
 #include <vector>
 
 #include "tools/diagnose/fit.h"
@@ -22,7 +21,7 @@ struct Remainder {
 /// Sum of the force equations' residuals.
 [[nodiscard]] Remainder remainder_of(const InverseModel& model, const Candidate& at);
 
-/// Takes off what the numbers could do of the rows to learn from, and as much of the others.
-void take_off_numbers(Remainder& rows, std::span<Remainder> others);
+/// Takes off what the numbers could do of the rows to learn from, and as much of others.
+void take_off_numbers(Remainder& rows, Remainder* others = nullptr);
 
 }  // namespace feedtwin::tools::diagnosis

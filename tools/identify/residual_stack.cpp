@@ -18,8 +18,7 @@ using Eigen::VectorXd;
 constexpr double few_roundings = 3.0;
 constexpr double fewest_rests = 4.0;
 constexpr std::size_t shortest_rest = 20;  // rows on one count
-constexpr std::size_t shortest_sticking = 8, rows_beside = 10;
-constexpr double largest_event = 3.0;  // deviations
+constexpr double largest_event = 3.0;      // deviations
 
 double rms(std::span<const double> values) {
   double squares = 0.0;
@@ -38,48 +37,6 @@ double rounding_Nm(const ClosedLoopRun& run) {
                              : 2.0 * s.damping_ratio * view.stand_in_mass_kg * s.bandwidth_rad_per_s * share;
   const double rounding_m = axis.lead_m / axis.encoder_counts_per_rev / std::sqrt(12.0);
   return damping * std::numbers::sqrt2 * rounding_m / view.tick_s * axis.lead_m / (2.0 * std::numbers::pi);
-}
-
-/// Where nothing but rounding is left of the command's residual, rows that show the same count are one reading, however
-/// many they are.
-std::vector<double> reading_weights(std::span<const double> position_m) {
-  std::vector<double> weights(position_m.size(), 1.0);
-  for (std::size_t first = 0; first < weights.size();) {
-    std::size_t end = first + 1;
-    while (end < weights.size() && position_m[end] == position_m[first]) ++end;
-    std::fill(weights.begin() + static_cast<std::ptrdiff_t>(first), weights.begin() + static_cast<std::ptrdiff_t>(end),
-              1.0 / std::sqrt(static_cast<double>(end - first)));
-    first = end;
-  }
-  return weights;
-}
-
-std::vector<Rest> rests_of(std::span<const double> position_m, std::size_t shortest) {
-  std::vector<Rest> rests;
-  for (std::size_t first = 0; first < position_m.size();) {
-    std::size_t end = first + 1;
-    while (end < position_m.size() && position_m[end] == position_m[first]) ++end;
-    if (end - first >= shortest) rests.push_back({first, end});
-    first = end;
-  }
-  return rests;
-}
-
-/// Rows in which the axis may stick or set off.
-std::vector<bool> rows_near_rests(std::span<const double> position_m) {
-  std::vector<bool> near(position_m.size(), false);
-  for (const Rest& rest : rests_of(position_m, shortest_sticking)) {
-    const std::size_t first = rest.first - std::min(rest.first, rows_beside),
-                      end = std::min(rest.end + rows_beside, near.size());
-    std::fill(near.begin() + static_cast<std::ptrdiff_t>(first), near.begin() + static_cast<std::ptrdiff_t>(end), true);
-  }
-  return near;
-}
-
-double mean_over(const std::vector<double>& values, const Rest& rest) {
-  double sum = 0.0;
-  for (std::size_t i = rest.first; i < rest.end; ++i) sum += values[i];
-  return sum / static_cast<double>(rest.end - rest.first);
 }
 
 /// A residual at every row, so that a rest's rows can be told.

@@ -8,14 +8,10 @@
 
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/output_error.h"
+#include "tools/identify/rests.h"
 #include "tools/identify/whitening.h"
 
 namespace feedtwin::tools {
-
-/// Rows [first, end) over which the encoder shows one count.
-struct Rest {
-  std::size_t first = 0, end = 0;
-};
 
 class ResidualStack {
  public:

@@ -91,6 +91,24 @@ TEST(LeastSquares, StopsAtBoundsThatHold) {
   }
 }
 
+// Slopes that are no numbers make a step that is none: nothing is asked there.
+TEST(LeastSquares, AsksForNumbersOnly) {
+  auto problem = within(2, -10.0, 10.0);
+  problem.start << 1.0, 1.0;
+  int asked = 0;
+  problem.residuals = [&asked](const MatrixXd& points) {
+    asked += static_cast<int>(points.cols());
+    EXPECT_TRUE(points.allFinite());
+    MatrixXd r = points;
+    for (Index i = 0; i < points.cols(); ++i)
+      if (points(1, i) != 1.0) r(1, i) = std::nan("");
+    return r;
+  };
+  const auto found = solve_least_squares(problem);
+  EXPECT_GT(asked, 3) << "beyond the slopes";
+  EXPECT_TRUE(found.point.allFinite());
+}
+
 TEST(LeastSquares, AvoidsPointsWithoutAValue) {
   auto problem = within(1, -10.0, 10.0);
   problem.start << 4.0;

@@ -104,6 +104,26 @@ TEST(OutputError, WiderNoiseGivesWiderIntervals) {
   EXPECT_LT(ratio, 30.0);
 }
 
+// Four single readings of a hundred deviations among 6000: bounded, they move the numbers by a part of what they do squared.
+TEST(OutputError, FewReadingsFarOffMoveLittleWhereEachIsBounded) {
+  const Case calm = short_case(3, 0.05);
+  Case disturbed = calm;
+  for (auto& recording : disturbed.fit)
+    for (const std::size_t row : {700U, 1900U}) recording.channels.at("force_sensor_N")[row] += 30.0;
+  const auto moved = [&](double largest_deviations) {
+    OutputErrorSettings settings;
+    settings.largest_deviations = largest_deviations;
+    const auto without = fit_of(calm, settings).fit, with = fit_of(disturbed, settings).fit;
+    double squares = 0.0;
+    for (const char* key : {"guide.coulomb_pos_N", "guide.coulomb_neg_N", "guide.viscous_pos_Ns_per_m", "guide.mass_kg"})
+      squares += std::pow((named(with, key).value - named(without, key).value) / named(without, key).deviation, 2);
+    return std::sqrt(squares);
+  };
+  const double squared = moved(0.0);
+  EXPECT_GT(squared, 0.5) << "or there is nothing to bound";
+  EXPECT_LT(moved(3.0), 0.5 * squared);
+}
+
 TEST(OutputError, CostOfAPopulationPutsTheTruthFirst) {
   const Case made = short_case(6, 0.1);
   std::vector<ClosedLoopRun> runs;
