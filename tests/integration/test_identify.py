@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import pathlib
+import select
 import shutil
 import signal
 import subprocess
@@ -210,6 +211,9 @@ class Identify(unittest.TestCase):
                 children = [int(c) for c in found if name == pathlib.Path(f"/proc/{c}/comm").read_text().strip()]
                 time.sleep(0.01)
             self.assertEqual(len(children), 2, "both processes run")
+            # its first remark comes when the processes have found each other: one that dies while they are still looking is
+            # mpirun's to notice, which under load it did not in 60 s, once
+            self.assertTrue(select.select([run.stderr], [], [], 20.0)[0], "the processes work together")
             os.kill(children[1], signal.SIGKILL)
             run.communicate(timeout=60)
             self.assertNotEqual(run.returncode, 0)
