@@ -76,7 +76,16 @@ class Diagnosing {
     unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_) && !certain;
     if (unknown_) return;
     forward_.learn_meter_noise(extended(settled_));
+    const std::size_t seen_before = found_.found.size();
     settled_ = look_again(forward_, fitter_, found_, fit_, settled_, progress_);
+    if (found_.found.size() > seen_before) ask_the_others_again();
+  }
+
+  /// What was named in place of a name that came later goes.
+  void ask_the_others_again() {
+    const std::size_t before = fit_.model.effects.size();
+    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    if (fit_.model.effects.size() < before) settled_ = fit_.model;
   }
 
   void polish_numbers() {
@@ -97,7 +106,7 @@ class Diagnosing {
     fit_.model = polished.model;
     covariance_ = with_what_only_inverse_tells(polished.covariance, covariance_, polished.model, fit_.base_count());
     const std::size_t named = fit_.model.effects.size();
-    drop_sizeless(forward_, by_inverse_model_.model, found_, fit_, covariance_, progress_);
+    drop_sizeless(forward_, fitter_, by_inverse_model_.model, found_, fit_, covariance_, progress_);
     if (fit_.model.effects.size() < named) fit_.model = polished_if_closer(forward_, fitter_, fit_.model);
   }
 

@@ -31,6 +31,13 @@ bool easily_confused(const Hypothesis& one, const Hypothesis& other) {
          std::ranges::find(other.confused_with, one.id) != other.confused_with.end();
 }
 
+bool alike(const Active& one, const Active& other, double sample_s) {
+  const auto small = [sample_s](const Active& a) {
+    return a.hypothesis->too_small_to_tell != nullptr && a.hypothesis->too_small_to_tell(a.q, sample_s);
+  };
+  return small(one) && small(other);
+}
+
 std::size_t freedom(const Hypothesis& hypothesis) {
   return static_cast<std::size_t>(
       std::ranges::count_if(hypothesis.parameters, [](const auto& p) { return fitted(p.kind); }));

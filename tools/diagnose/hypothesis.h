@@ -89,6 +89,8 @@ struct Hypothesis {
   bool (*finding)(std::span<const double> q) = nullptr;
   std::vector<std::string_view> confused_with;
   std::string_view always_beside = {};  ///< obeys the same equation: always an alternative
+  /// So small that what it is confused with does the same to every sample, if that is as small.
+  bool (*too_small_to_tell)(std::span<const double> q, double sample_s) = nullptr;
   /// The grid where it depends on where the axis was; in place of `shapes`.
   std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
   /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.
@@ -117,6 +119,8 @@ struct Active {
 }
 /// Does either name the other as what it is confused with?
 [[nodiscard]] bool easily_confused(const Hypothesis& one, const Hypothesis& other);
+/// Are both so small that they do the same to every sample?
+[[nodiscard]] bool alike(const Active& one, const Active& other, double sample_s);
 /// Working parameters that are fitted.
 [[nodiscard]] std::size_t freedom(const Hypothesis& hypothesis);
 

@@ -6,6 +6,7 @@
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/ruling.h"
 #include "tools/diagnose/forward/sizes.h"
 
 namespace feedtwin {
@@ -66,6 +67,67 @@ TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
   EXPECT_EQ(made.settled({&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
 }
 
+/// Runs with a delay of the command, and what the arbiter says of it.
+Found settled_delay(double delay_s) {
+  auto truth = plant::source_axis();
+  truth.effects.push_back(tests::effect("input_delay", {{"delay_s", delay_s}}));
+  const tools::Case data = tests::short_case(truth, plant::source_axis());
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Fitter fitter(model, data.axis);
+  SearchResult result;
+  result.whitening = fitter.colour_of(model.residual(data.axis, {}));
+  Fit fit = fitter.fit({data.axis, {{&hypothesis("input_delay"), {delay_s}}}}, result.whitening, 6);
+  result.found.emplace_back().effect = fit.model.effects[0];
+  (void)Arbiter(ForwardModel(data.fit, data), fitter, silent).settle(result, fit);
+  return result.found[0];
+}
+
+TEST(Arbiter, TellsADelayFromALagThatIsSeenInTheNextSampleAndNoShorterOne) {
+  const auto is_lag = [](const Hypothesis* one) { return one->id == "current_loop_lag"; };
+  const Found longer = settled_delay(8e-4), shorter = settled_delay(1e-4);
+  EXPECT_EQ(longer.effect.hypothesis->id, "input_delay");
+  EXPECT_TRUE(std::ranges::none_of(longer.rivals, is_lag));
+  EXPECT_TRUE(std::ranges::any_of(shorter.rivals, is_lag) || is_lag(shorter.effect.hypothesis));
+  EXPECT_FALSE(shorter.rivals.empty());
+}
+
+TEST(Contest, WhoIsBehindAlsoGoesOnFromTheOthersNumbersHoweverFarBehind) {
+  const Cogged made;
+  const Candidate right{made.data.axis, {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
+  Candidate astray = right;  // where a search of its own had gone
+  for (auto* contact : {&astray.axis.ball_screw, &astray.axis.guide}) contact->coulomb_N = {1.0, 1.0};
+  const auto ruling = [&made](const Candidate& model) {
+    Ruling now{made.fitter.linearised(model, made.whitening), model, likelihood(made.forward, extended(model)), 0.0};
+    now.value = now.likelihood.total();
+    return now;
+  };
+  Ruling behind = ruling(astray), ahead = ruling({made.data.axis, {{&hypothesis("torque_ripple"), {0.05, 0.0, 8.0}}}});
+  ASSERT_GT(ahead.value - behind.value, 1500.0);
+  contest(behind, ahead, made.forward, made.fitter);
+  EXPECT_GT(behind.value, ahead.value);
+}
+
+TEST(Sizes, WhatOtherNumbersCanTakeUpIsTakenBackWhereItsOwnAreNotTold) {
+  const Cogged made;
+  Candidate model{made.data.axis,
+                  {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}, {&hypothesis("direction_dependent_friction"), {0.4, 0.0}}}};
+  for (auto* friction_N : {&model.axis.ball_screw.coulomb_N, &model.axis.ball_screw.static_N})
+    friction_N->pos -= 0.2, friction_N->neg += 0.2;
+  for (const bool told : {true, false}) {
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    for (const auto& effect : model.effects) result.found.emplace_back().effect = effect;
+    Eigen::MatrixXd covariance = fit.covariance;
+    covariance.bottomRows(2).setZero();
+    covariance.rightCols(2).setZero();
+    covariance.bottomRightCorner<2, 2>().diagonal().setConstant(std::pow(told ? 0.01 : 0.4, 2));
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), told ? 2U : 1U);
+    EXPECT_EQ(result.found.size(), fit.model.effects.size());
+    EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
+  }
+}
+
 TEST(Sizes, WhatTheClosedLoopFindsToBeNothingIsTakenBackAndNothingElse) {
   const Cogged made;
   const Candidate both{made.data.axis,
@@ -78,7 +140,7 @@ TEST(Sizes, WhatTheClosedLoopFindsToBeNothingIsTakenBackAndNothingElse) {
     result.found.push_back(named);
   }
   Eigen::MatrixXd covariance = fit.covariance;
-  drop_sizeless(made.forward, both, result, fit, covariance, silent);
+  drop_sizeless(made.forward, made.fitter, both, result, fit, covariance, silent);
   ASSERT_EQ(fit.model.effects.size(), 1U);
   EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
   ASSERT_EQ(result.found.size(), 1U);
@@ -96,7 +158,7 @@ TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
     SearchResult result;
     result.found.emplace_back().effect = fit.model.effects[0];
     Eigen::MatrixXd covariance = fit.covariance;
-    drop_sizeless(made.forward, with(by_inverse_model_Nm), result, fit, covariance, silent);
+    drop_sizeless(made.forward, made.fitter, with(by_inverse_model_Nm), result, fit, covariance, silent);
     EXPECT_EQ(result.found.size(), fit.model.effects.size());
     return fit.model.effects.size();
   };

@@ -123,7 +123,7 @@ TEST(ExtendedAxis, AGapBesideASpringAddsNoSpringOfItsOwn) {
 
 // Friction may rest on a nuisance: then the model without it is another model, which has to be simulated too.
 TEST(ExtendedAxis, ThereAreTwoWaysToSimulateAModelWithANuisance) {
-  const auto memory = [](double force_N) { return Active{&hypothesis("presliding_memory"), {force_N, 2e-5}}; };
+  const auto memory = [](double force_N) { return Active{&hypothesis("presliding_memory"), {force_N, 5e-6}}; };
   const auto finding = ways_of({plant::source_axis(), {cogging(amplitude_Nm), memory(80.0)}});
   ASSERT_EQ(finding.size(), 1U);
   EXPECT_EQ(finding[0].common.effects.size(), 2U);

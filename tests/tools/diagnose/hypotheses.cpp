@@ -218,6 +218,17 @@ TEST(ChannelSkew, HalfASampleLaterAReadingKeepsItsStrength) {
   EXPECT_LT((later - truth).norm(), 0.01 * truth.norm());
 }
 
+TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCouldBeIt) {
+  const auto finding = [](double force_N, double distance_m) {
+    return worth_naming({&hypothesis("presliding_memory"), {force_N, distance_m}});
+  };
+  EXPECT_TRUE(finding(80.0, 8e-6));
+  EXPECT_TRUE(finding(8.0, 1.7e-5));
+  EXPECT_FALSE(finding(80.0, 1.5e-6)) << "a bristle's own stiffness";
+  EXPECT_FALSE(finding(35.0, 6e-6)) << "a contact of many elements where the model has one bristle";
+  EXPECT_FALSE(finding(3.6, 1.2e-5)) << "a screw that yields";
+}
+
 std::vector<std::string_view> ids() {
   std::vector<std::string_view> all;
   for (const auto& one : hypotheses()) all.push_back(one.id);

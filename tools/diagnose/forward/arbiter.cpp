@@ -42,7 +42,8 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     const double better = rival.value - now.value;
     progress_(fmt::format("closed loop, {} in place of {}: {:+.0f} nats, {:+.1f} deviations", score.hypothesis->id,
                           named->id, better, difference.deviations));
-    const bool clear = std::abs(better) > clearly_nats &&
+    const bool can_tell = !alike(now.model.effects[e], rival.model.effects[e], fitter_.model().tracks().front().sample_s);
+    const bool clear = can_tell && std::abs(better) > clearly_nats &&
                        std::copysign(difference.deviations, better) == difference.deviations &&
                        std::abs(difference.deviations) > clearly_deviations;
     if (!clear) entry->rivals.push_back(score.hypothesis);

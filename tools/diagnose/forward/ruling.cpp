@@ -64,11 +64,13 @@ void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitt
   constexpr double hopeless_nats = 1500.0, of_consequence_nats = 10.0;
   for (int round = 0; round < most_rounds; ++round) {
     Ruling &behind = one.value < other.value ? one : other, &ahead = one.value < other.value ? other : one;
-    if (ahead.value - behind.value > hopeless_nats) return;
-    Ruling further = polished(behind.fit, behind.model, forward, fitter, further_iterations);
+    const Candidate beside = with_numbers_of(ahead.model, behind.model);
+    const bool better_beside = likelihood(forward, extended(beside)).total() > behind.likelihood.total();
+    if (!better_beside && ahead.value - behind.value > hopeless_nats) return;
+    Ruling further = polished(behind.fit, better_beside ? beside : behind.model, forward, fitter, further_iterations);
     if (further.value < behind.value + of_consequence_nats) {
-      Ruling beside = polished(behind.fit, with_numbers_of(ahead.model, behind.model), forward, fitter, further_iterations);
-      if (beside.value > further.value) further = std::move(beside);
+      Ruling second = polished(behind.fit, better_beside ? behind.model : beside, forward, fitter, further_iterations);
+      if (second.value > further.value) further = std::move(second);
     }
     if (further.value < behind.value + of_consequence_nats) return;
     behind = std::move(further);

@@ -38,8 +38,7 @@ Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, bool 
 bool can_be_asked(const Score& score, const Candidate& model, const Screen& left) {
   const Hypothesis& h = *score.hypothesis;
   // what acts at reversals is also what one bristle cannot do of any friction
-  return !has(model, h) && !h.about_reversals && !h.number_of_the_model && score.gain > least_gain &&
-         left.p_false_alarm(score.standard) < largest_p;
+  return !has(model, h) && !h.about_reversals && score.gain > least_gain && left.p_false_alarm(score.standard) < largest_p;
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ Hypothesis current_loop_lag() {
           .sentence = "the drive's current loop lags: first order, {time_constant_s} s",
 
           .confused_with = {"input_delay", "channel_skew", "frictional_lag"},
+          .too_small_to_tell = gone_within_a_sample,
           .friction = false};
 }
 

@@ -41,6 +41,7 @@ Hypothesis input_delay() {
           .sentence = "the command acts {delay_s} s late",
 
           .confused_with = {"current_loop_lag", "channel_skew", "frictional_lag"},
+          .too_small_to_tell = gone_within_a_sample,
           .starts = {{1.5e-3}, {2.5e-3}, {3.5e-3}},  // a sensor reads another command with each whole tick
           .friction = false};
 }

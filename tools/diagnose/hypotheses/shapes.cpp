@@ -58,6 +58,10 @@ Grid frequencies(double low_Hz, double high_Hz) {
   return grid;
 }
 
+bool gone_within_a_sample(std::span<const double> q, double sample_s) {
+  return q[0] < 0.2 * sample_s;
+}
+
 std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz) {
   return {{"sine_0_N", Kind::amplitude, 0.1},
           {"cosine_0_N", Kind::amplitude, 0.1},

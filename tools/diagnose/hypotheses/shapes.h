@@ -19,6 +19,9 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Vector delayed(const Vector& values, double samples);
 /// First-order lag of a number of samples.
 [[nodiscard]] Vector lagged(const Vector& values, double samples);
+/// Of a delay or a time constant: what it leaves of a step is gone at the next sample (e^-5), and until then a lag takes
+/// as much from the mean torque as a delay.
+[[nodiscard]] bool gone_within_a_sample(std::span<const double> q, double sample_s);
 
 /// A force of one frequency with a phase of its own in each of up to four runs: sine and cosine of each run, frequency.
 [[nodiscard]] std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz);
