@@ -56,48 +56,23 @@ Matrix3d gauss_newton(const Point& here) {
   return b;
 }
 
-/// The secant correction after a step, sized first to what the step saw of it.
-Matrix3d corrected(Matrix3d secant, const Point& from, const Point& to) {
-  const Vector3d s = to.at - from.at, y = to.gradient - from.gradient, seen = y - to.curvature * s;
-  const double along = y.dot(s);
-  if (!(along > 0.0)) return secant;
-  const double size = std::abs(s.dot(secant * s));
-  if (size > 0.0) secant *= std::min(1.0, std::abs(s.dot(seen)) / size);
-  const Vector3d missing = seen - secant * s;
-  secant +=
-      (missing * y.transpose() + y * missing.transpose()) / along - (missing.dot(s) / (along * along)) * y * y.transpose();
-  return secant;
-}
-
 }  // namespace
 
 InverseSearch search_shape(const InverseProjection& projection, const ShapeBounds& bounds, const Vector3d& start,
                            double tolerance) {
-  InverseSearch search{projection.project(start.cwiseMax(bounds.lowest).cwiseMin(bounds.highest)), 1, false};
-  Matrix3d secant = Matrix3d::Zero();
+  InverseSearch search{projection.project(start.cwiseMax(bounds.lowest).cwiseMin(bounds.highest)), 1};
   Point& here = search.end;
   double reach = 1.0;  // half the box, in longest steps
   while (search.passes < most_passes && std::isfinite(here.cost)) {
-    const Matrix3d plain = gauss_newton(here);
-    Matrix3d b = plain + secant;
-    if (b.llt().info() != Eigen::Success) {
-      secant.setZero();
-      b = plain;
-    }
-    Vector3d step = bounded_step(b, here, bounds, reach);
-    if (!(promise(b, here, step) > 0.5 * tolerance * here.cost)) {
-      secant.setZero();  // a correction that is too large must not end the search
-      b = plain;
-      step = bounded_step(b, here, bounds, 1.0);
-      search.converged = !(promise(b, here, step) > 5.0 * tolerance * here.cost);
-      if (search.converged) break;
-    }
+    const Matrix3d b = gauss_newton(here);
+    const Vector3d longest = bounded_step(b, here, bounds, 1.0);
+    if (!(promise(b, here, longest) > tolerance * here.cost)) break;
+    const Vector3d step = reach < 1.0 ? bounded_step(b, here, bounds, reach) : longest;
     const Point there = projection.project(here.at + step);
     ++search.passes;
     const double share = (here.cost - there.cost) / (2.0 * promise(b, here, step));  // of what was promised
     const double length = step.cwiseAbs().maxCoeff() / longest_step;
     if (share > 0.0) {
-      secant = corrected(secant, here, there);
       here = there;
       if (share > 0.5) reach = std::min(1.0, std::max(reach, 3.0 * length));
       if (share < 0.1) reach = 0.5 * length;

@@ -1,12 +1,12 @@
 #pragma once
-// The friction shape of least cost, within bounds. The residuals are large (two contacts and two directions are taken for
-// one), so that Gauss and Newton's curvature J' J lacks what the residuals' own adds, and their steps overshoot. A secant
-// correction learns it from step to step (Dennis, Gay, Welsch: NL2SOL, ACM TOMS 7, 1981):
+// The friction shape of least cost, within bounds, by Gauss and Newton's steps
 //
-//   B = J' J + S,   B p = -J' r,   (J' J + S) s = change of J' r over the last step s
+//   J' J p = -J' r
 //
-// Steps stay within a box about the point. One that does not go down makes the box as small as where the slopes at its ends
-// say that the lowest point between them lies, for the valleys are narrow and bent; one that keeps its promise widens it.
+// of which each stays within a box about the point. The residuals are large (two contacts and two directions are taken for
+// one) and the valleys narrow and bent, so that a step often goes too far: one that does not go down makes the box as small
+// as where the slopes at its ends say that the lowest point between them lies; one that keeps its promise widens it. Within
+// bounds and box the step is exact.
 
 #include "tools/identify/stages/inverse_projection.h"
 
@@ -20,10 +20,9 @@ struct ShapeBounds {
 struct InverseSearch {
   InverseProjection::Point end;
   int passes = 0;  ///< over the record
-  bool converged = false;
 };
 
-/// @param tolerance relative fall of the cost that a further step would promise at the end
+/// @param tolerance half the relative fall of the cost that a further step would promise at the end
 [[nodiscard]] InverseSearch search_shape(const InverseProjection& projection, const ShapeBounds& bounds,
                                          const Eigen::Vector3d& start, double tolerance);
 

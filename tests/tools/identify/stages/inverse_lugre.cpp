@@ -31,11 +31,14 @@ TEST(InverseLugre, FindsTheSameOptimumFromAnyStart) {
   const auto factor = [&random](double spread) {
     return std::exp(std::uniform_real_distribution<double>(-std::log(spread), std::log(spread))(random));
   };
+  int passes = 0;
   for (int start = 0; start < 100; ++start) {
     const auto again = model.fit({2e-6 * factor(10.0), 1.0 + 0.2 * factor(5.0), 1e-3 * factor(5.0)});
     ASSERT_TRUE(again) << start;
     EXPECT_NEAR(again->cost, best->cost, 1e-6 * best->cost) << start;
+    passes += again->passes;
   }
+  EXPECT_LT(passes, 1000) << "of 100 starts";
   for (int trial = 0; trial < 200; ++trial) {
     InverseLugreFit other = *best;
     for (double* value : {&other.mass_kg, &other.coulomb_N, &other.static_N, &other.stribeck_m_per_s,
