@@ -114,9 +114,9 @@ std::string joint_line(const OutputErrorFit& fit) {
   }
   if (numbers < 2) return {};
   const double least = joint_90(numbers, std::numeric_limits<double>::infinity()) / normal_90;
-  return fmt::format(
-      "all {} at once lie in intervals {:.2f} to {:.2f} times as wide in 90 % of repeats (JSON: joint_ci90)\n", numbers,
-      least, joint_90(numbers, least_dof) / normal_90);
+  const double most = joint_90(numbers, least_dof) / normal_90;
+  const auto times = most - least < 0.005 ? fmt::format("{:.2f}", least) : fmt::format("{:.2f} to {:.2f}", least, most);
+  return fmt::format("all {} at once: intervals {} times as wide (JSON: joint_ci90)\n", numbers, times);
 }
 
 nlohmann::json to_json(const RigidFit& fit) {
