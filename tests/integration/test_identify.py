@@ -85,6 +85,8 @@ class Identify(unittest.TestCase):
         numbers = json.loads(found.read_text())
         for parameter in numbers["parameters"].values():
             self.assertLessEqual(parameter["ci90"][0], parameter["ci90"][1])
+            self.assertLessEqual(parameter["joint_ci90"][0], parameter["ci90"][0], "what holds all at once is wider")
+            self.assertGreaterEqual(parameter["joint_ci90"][1], parameter["ci90"][1])
             self.assertIn("identifiable", parameter)
         self.assertIn("torque_cmd_Nm", numbers["channels"])
         self.assertEqual(program.run("compare", self.case, "--axis", self.path / "found.toml").returncode, 0)

@@ -6,11 +6,14 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "plant/parameter_table.h"
 #include "tools/identify/axis_unknowns.h"
+#include "tools/identify/joint_intervals.h"
 #include "tools/identify/stages/stage_report.h"
+#include "tools/intervals.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -73,6 +76,21 @@ void evolve_start(const std::vector<ClosedLoopRun>& runs, const BatchSimulator& 
   }
 }
 
+/// Each number as it stands in the axis, breakaway never below Coulomb, with intervals whose ends are within its range.
+void settle_numbers(Identification& found) {
+  const auto of_axis = [](const FittedParameter& fitted) { return plant::find_parameter(fitted.parameter.key) != nullptr; };
+  const auto numbers = static_cast<std::size_t>(std::ranges::count_if(found.fit.parameters, of_axis));
+  for (auto& fitted : found.fit.parameters) {
+    const auto* entry = plant::find_parameter(fitted.parameter.key);
+    if (entry == nullptr) continue;
+    const double half = joint_90(numbers, fitted.degrees_of_freedom) * fitted.deviation;
+    fitted.joint_ci90 = {fitted.value - half, fitted.value + half};
+    for (double& end : fitted.ci90) end = std::clamp(end, entry->lowest, entry->highest);
+    for (double& end : *fitted.joint_ci90) end = std::clamp(end, entry->lowest, entry->highest);
+    fitted.value = entry->in(found.axis);
+  }
+}
+
 /// What trades with an encoder's rounding is of no use to anybody.
 void drop_nuisances(std::vector<Trade>& trades) {
   for (auto& trade : trades) {
@@ -83,6 +101,22 @@ void drop_nuisances(std::vector<Trade>& trades) {
     }
   }
   std::erase_if(trades, [](const Trade& trade) { return trade.keys.empty(); });
+}
+
+/// By how much the intervals are wider that hold all numbers at once.
+std::string joint_line(const OutputErrorFit& fit) {
+  std::size_t numbers = 0;
+  double least_dof = std::numeric_limits<double>::infinity();
+  for (const auto& fitted : fit.parameters) {
+    if (!fitted.joint_ci90) continue;
+    ++numbers;
+    least_dof = std::min(least_dof, fitted.degrees_of_freedom);
+  }
+  if (numbers < 2) return {};
+  const double least = joint_90(numbers, std::numeric_limits<double>::infinity()) / normal_90;
+  const double most = joint_90(numbers, least_dof) / normal_90;
+  const auto times = most - least < 0.005 ? fmt::format("{:.2f}", least) : fmt::format("{:.2f} to {:.2f}", least, most);
+  return fmt::format("all {} at once: intervals {} times as wide (JSON: joint_ci90)\n", numbers, times);
 }
 
 nlohmann::json to_json(const RigidFit& fit) {
@@ -133,13 +167,7 @@ Identification identify_case(const Case& recordings, const IdentificationSetting
     found.fit = fit_output_error(runs, unknowns, simulate, settings.output_error);
   });
   found.axis = axis_at(recordings.axis, unknowns, found.fit.point()).parameters;
-  for (auto& fitted :
-       found.fit.parameters) {  // as it stands in the axis: breakaway never below Coulomb, ends within the range
-    const auto* entry = plant::find_parameter(fitted.parameter.key);
-    if (entry == nullptr) continue;
-    fitted.value = entry->in(found.axis);
-    for (double& end : fitted.ci90) end = std::clamp(end, entry->lowest, entry->highest);
-  }
+  settle_numbers(found);
   drop_nuisances(found.fit.trades);
   found.before = compare_case(recordings, recordings.axis);
   found.after = compare_case(recordings, found.axis);
@@ -154,10 +182,12 @@ nlohmann::json to_json(const Identification& found) {
   out["parameters"] = nlohmann::json::object();
   out["nuisances"] = nlohmann::json::object();
   for (const auto& fitted : found.fit.parameters) {
-    out[nuisance(fitted) ? "nuisances" : "parameters"][fitted.parameter.key] = {{"value", fitted.value},
-                                                                                {"ci90", {fitted.ci90[0], fitted.ci90[1]}},
-                                                                                {"identifiable", fitted.identifiable},
-                                                                                {"nominal", fitted.parameter.nominal}};
+    auto& one = out[nuisance(fitted) ? "nuisances" : "parameters"][fitted.parameter.key];
+    one = {{"value", fitted.value},
+           {"ci90", {fitted.ci90[0], fitted.ci90[1]}},
+           {"identifiable", fitted.identifiable},
+           {"nominal", fitted.parameter.nominal}};
+    if (fitted.joint_ci90) one["joint_ci90"] = *fitted.joint_ci90;
   }
   out["trades"] = nlohmann::json::array();
   for (const auto& trade : found.fit.trades) {
@@ -186,6 +216,7 @@ std::string to_text(const Identification& found) {
         fmt::format("{:<36} {:>13.6g} {:>13.6g} [{:>13.6g},{:>13.6g}]{}\n", fitted.parameter.key, fitted.parameter.nominal,
                     fitted.value, fitted.ci90[0], fitted.ci90[1], fitted.identifiable ? "" : "  not told by these data");
   }
+  out += joint_line(found.fit);
   for (const auto& trade : found.fit.trades) {
     if (trade.keys.size() < 2) continue;
     std::string members;

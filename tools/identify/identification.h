@@ -49,7 +49,8 @@ struct Identification {
 
 [[nodiscard]] Identification identify_case(const Case& recordings, const IdentificationSettings& settings = {});
 
-/// Contract of `identify --json`, without the head.
+/// Contract of `identify --json`, without the head. Of a parameter, `ci90` holds the truth in 90 % of repeats, whatever the
+/// others' do; all parameters' `joint_ci90` hold at once in 90 %.
 [[nodiscard]] nlohmann::json to_json(const Identification& found);
 [[nodiscard]] std::string to_text(const Identification& found);
 

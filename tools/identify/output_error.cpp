@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "tools/identify/fit_covariance.h"
+#include "tools/identify/joint_intervals.h"
 #include "tools/identify/least_squares.h"
 #include "tools/identify/residual_stack.h"
 #include "tools/identify/rounding_effect.h"
@@ -105,10 +106,12 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
   }
   OutputErrorFit fit;
   fit.covariance = MatrixXd::Zero(at.point.size(), at.point.size());
+  MatrixXd rounding = fit.covariance;
   if (settings.intervals) {
     linearise_both_ways(problem, at);
     const MatrixXd inverse = inverse_information(at);
-    fit.covariance = covariance_of(at, stack, inverse, rounding_effect(at, inverse, stack, settings.encoder_grids));
+    rounding = rounding_effect(at, inverse, stack, settings.encoder_grids);
+    fit.covariance = covariance_of(at, stack, inverse, rounding);
     fit.trades = trades_of(fit.covariance, parameters, settings.told_below);
   }
   fit.cost = at.cost;
@@ -121,7 +124,12 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
     const double half = normal_90 * deviation, value = at.point[index];
     const double known = settings.prior > 0.0 ? 0.5 * settings.prior * parameters[i].prior : settings.told_below;
     const bool told = deviation < std::min(settings.told_below, known) * parameters[i].scale;
-    fit.parameters.push_back({parameters[i], value, deviation, {value - half, value + half}, told});
+    fit.parameters.push_back({parameters[i],
+                              value,
+                              deviation,
+                              {value - half, value + half},
+                              told,
+                              degrees_of_freedom(deviation * deviation, rounding(index, index), settings.encoder_grids)});
   }
   return fit;
 }

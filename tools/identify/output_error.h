@@ -3,7 +3,9 @@
 // closest to the recorded ones, with intervals that know of the residuals' colour, and with what the data cannot tell.
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +57,9 @@ struct FittedParameter {
   double value = 0.0, deviation = 0.0;
   double ci90[2] = {0.0, 0.0};
   bool identifiable = false;
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();  ///< of the deviation
+  /// Holds with those of all other numbers of the axis at once in 90 % of repeats (joint_intervals.h); identify gives it.
+  std::optional<std::array<double, 2>> joint_ci90{};
 };
 
 /// Unknowns of which the data tell only one combination.

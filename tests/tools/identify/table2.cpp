@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "plant/parameter_table.h"
@@ -22,6 +23,7 @@ void expect_table_2(tests::Sensors sensors, unsigned seed) {
   auto truth = plant::source_axis();
   EXPECT_TRUE(found.fit.converged);
   int inside = 0, all = 0;
+  double furthest = 0.0;  // deviations
   for (const auto& p : found.fit.parameters) {
     const auto* entry = plant::find_parameter(p.parameter.key);
     if (entry == nullptr) continue;
@@ -30,12 +32,16 @@ void expect_table_2(tests::Sensors sensors, unsigned seed) {
     EXPECT_LT(off, presliding(entry->key) ? 0.05 : 0.01) << entry->key << ": " << p.value << ", expected " << right;
     inside += p.ci90[0] <= right && right <= p.ci90[1] ? 1 : 0;
     ++all;
-    // 32 intervals of 90 % each: one that misses is no wonder, one that misses by far is
-    EXPECT_LT(std::abs(p.value - right), 4.0 * p.deviation) << entry->key;
+    // 32 intervals of 90 % each: one that misses is no wonder; those for all at once should not
+    const auto& joint = p.joint_ci90.value();
+    EXPECT_TRUE(joint[0] <= right && right <= joint[1])
+        << entry->key << ": [" << joint[0] << ", " << joint[1] << "], expected " << right;
+    furthest = std::max(furthest, std::abs(p.value - right) / p.deviation);
   }
   EXPECT_EQ(all, 32);
   EXPECT_GE(inside, 24) << "of 32; fewer in one of 500 draws";
   testing::Test::RecordProperty("inside_of_32", inside);
+  testing::Test::RecordProperty("furthest_deviations", std::to_string(furthest));
 }
 
 TEST(Table2, ComesBackFromTheSourcesExperiments) {

@@ -1,6 +1,6 @@
 #pragma once
-// The inverse model's bristle along a recorded motion, for one friction shape and three beside it at once, and the sums of
-// products that a projected least-squares step needs: one pass over the record gives cost, normal equations and derivatives.
+// The inverse model's bristle along a recorded motion, its slopes by the friction's shape, and the sums of products that a
+// projected least-squares step needs: one pass over the record gives cost, normal equations and derivatives.
 //
 // Forces are in units of F_C, so that F_C itself is one of the linear numbers:   F / F_C = f(sigma0 / F_C, F_S / F_C, v_S)
 
@@ -15,7 +15,7 @@ struct FrictionShape {
   double rise;                      ///< F_S / F_C - 1
   double inverse_stribeck_s_per_m;  ///< 1 / v_S
 };
-inline constexpr std::size_t shapes_at_once = 4;
+inline constexpr std::size_t shape_slopes = 3;  ///< by ln(sigma0 / F_C), F_S / F_C, ln v_S
 
 /// A recorded motion, tick by tick; all arrays are `ticks` long.
 struct MotionView {
@@ -24,15 +24,15 @@ struct MotionView {
   const double *velocity_m_per_s, *acceleration_m_per_s2, *force_N;  ///< mean over each tick
 };
 
-/// Columns of the sums: mean bristle force f and mean rate dz/dt r of the first shape, and what the others have beyond it.
-inline constexpr std::size_t bristle_columns = 2 * shapes_at_once;  ///< f, 3 differences of f, r, 3 differences of r
-inline constexpr std::size_t motion_columns = 4;                    ///< acceleration, velocity, 1, force
+/// Columns of the sums: mean bristle force f and its slopes, mean rate dz/dt and its slopes.
+inline constexpr std::size_t bristle_columns = 2 * (1 + shape_slopes);
+inline constexpr std::size_t motion_columns = 4;  ///< acceleration, velocity, 1, force
 struct InverseSums {
   /// [i][j]: sum over the ticks of column i times column j
   std::array<std::array<double, bristle_columns + motion_columns>, bristle_columns> products{};
 };
 
 /// Adds a motion's ticks to the sums; the bristle starts unloaded.
-using InverseKernel = void (*)(const MotionView& motion, const FrictionShape* shapes, InverseSums& sums);
+using InverseKernel = void (*)(const MotionView& motion, const FrictionShape& shape, InverseSums& sums);
 
 }  // namespace feedtwin::tools::lanes
