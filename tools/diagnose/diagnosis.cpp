@@ -84,7 +84,7 @@ class Diagnosing {
   /// What was named in place of a name that came later goes.
   void ask_the_others_again() {
     const std::size_t before = fit_.model.effects.size();
-    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    keep_confirmed(forward_, fitter_, found_, fit_, progress_, found_.found.back().effect.hypothesis);
     if (fit_.model.effects.size() < before) settled_ = fit_.model;
   }
 

@@ -84,7 +84,7 @@ Found settled_delay(double delay_s) {
 
 TEST(Arbiter, TellsADelayFromALagThatIsSeenInTheNextSampleAndNoShorterOne) {
   const auto is_lag = [](const Hypothesis* one) { return one->id == "current_loop_lag"; };
-  const Found longer = settled_delay(8e-4), shorter = settled_delay(1e-4);
+  const Found longer = settled_delay(8e-4), shorter = settled_delay(1.8e-4);
   EXPECT_EQ(longer.effect.hypothesis->id, "input_delay");
   EXPECT_TRUE(std::ranges::none_of(longer.rivals, is_lag));
   EXPECT_TRUE(std::ranges::any_of(shorter.rivals, is_lag) || is_lag(shorter.effect.hypothesis));

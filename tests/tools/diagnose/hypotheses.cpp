@@ -229,6 +229,15 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_FALSE(finding(3.6, 1.2e-5)) << "a screw that yields";
 }
 
+TEST(Hypothesis, ALagAndADelayAreAlikeOnlyWhereBothAreGoneWithinASample) {
+  const auto of = [](std::string_view id, double seconds) { return Active{&hypothesis(id), {seconds}}; };
+  constexpr double sample_s = 1e-3;
+  EXPECT_TRUE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 1.2e-4), sample_s));
+  EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 4e-4), sample_s));
+  EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 1.2e-4), 0.25 * sample_s));
+  EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("frictional_lag", 1.2e-4), sample_s));
+}
+
 std::vector<std::string_view> ids() {
   std::vector<std::string_view> all;
   for (const auto& one : hypotheses()) all.push_back(one.id);
