@@ -80,6 +80,7 @@ struct Hypothesis {
   bool absorbed = false;             ///< the nominal numbers can take most of it: only what they may not be tells it
   /// Least strength to be named: what it leaves over, rms, by the rms of what is left over with it.
   double least_strength = 0.2;
+  double least_gain = 0.0;  ///< fall of the cost, where that must be more than any hypothesis's
   /// Without it the closed loop must be this many times as far off in some channel on the runs of the fit. On practice and
   /// challenge cases, seen on held-out runs, right names made 1.048 and more, a third of the wrong ones less than 1.02.
   double least_error_ratio = 1.02;

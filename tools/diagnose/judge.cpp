@@ -93,7 +93,8 @@ Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const 
   v.gain = without.cost - with.cost;
   v.surprise = prior_part(without) - prior_part(with);
   v.strength = strength(fitter.model(), with, without, hypothesis.about_reversals, bar);
-  const double needed = bar.gain + bar.per_parameter * static_cast<double>(freedom(hypothesis) - 1);
+  const double needed =
+      std::max(hypothesis.least_gain, bar.gain + bar.per_parameter * static_cast<double>(freedom(hypothesis) - 1));
   const bool doubtful = hypothesis.absorbed && v.surprise < -bar.against_nominal;
   const double least = doubtful ? std::max(bar.strength_against, hypothesis.least_strength) : hypothesis.least_strength;
   const bool strong = v.strength > least && v.gain > needed;

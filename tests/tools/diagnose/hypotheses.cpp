@@ -229,6 +229,23 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_FALSE(finding(3.6, 1.2e-5)) << "a screw that yields";
 }
 
+TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {
+  const auto can_be = [](double mass_kg) { return possible({&hypothesis("payload"), {mass_kg}}, plant::source_axis()); };
+  EXPECT_TRUE(can_be(13.0));
+  EXPECT_FALSE(can_be(3e7)) << "something solid";
+  EXPECT_FALSE(can_be(-1.0));
+}
+
+TEST(LocalFriction, IsNarrowAndNoMoreThanTheAxisHas) {
+  const auto can_be = [](double height_N, double half_width_m) {
+    return possible({&hypothesis("local_friction"), {height_N, 0.01, half_width_m}}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(60.0, 2e-3));
+  EXPECT_FALSE(can_be(1000.0, 2e-4)) << "something solid";
+  EXPECT_FALSE(can_be(5.0, 0.03)) << "friction along the stroke";
+  EXPECT_FALSE(can_be(-5.0, 2e-3));
+}
+
 TEST(Hypothesis, ALagAndADelayAreAlikeOnlyWhereBothAreGoneWithinASample) {
   const auto of = [](std::string_view id, double seconds) { return Active{&hypothesis(id), {seconds}}; };
   constexpr double sample_s = 1e-3;

@@ -34,6 +34,22 @@ TEST_F(Judged, AnEffectIsStrongInTheEquationsThatItMovesAndInNoOther) {
   EXPECT_GT(model.equations().size(), 1U);
 }
 
+TEST_F(Judged, AHypothesisMayAskForMoreThanTheOthers) {
+  Fit with, without;
+  with.residual = Vector::Constant(model.rows(), 1.0);
+  without.residual = Vector::Constant(model.rows(), 3.0);
+  with.white = without.white = Vector::Zero(model.rows());
+  Hypothesis modest = hypothesis("cogging");
+  modest.shapes.clear();
+  Hypothesis asking = modest;
+  asking.least_gain = 100.0;
+  for (const double gain : {99.0, 101.0}) {
+    without.cost = with.cost + gain;
+    EXPECT_TRUE(judged(fitter, with, without, modest, Bar{}).enough);
+    EXPECT_EQ(judged(fitter, with, without, asking, Bar{}).enough, gain > 100.0);
+  }
+}
+
 TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
   const Whitening whitening = Whitening::estimate(model, model.residual(axis, {}));
   Candidate start{axis, {}};

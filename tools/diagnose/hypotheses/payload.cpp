@@ -16,8 +16,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"mass_kg", q[0]}};
 }
 
-bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.0;
+/// More than ten times what the drive moves by itself is something solid.
+bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
+  const double inertia_kgm2 = axis.motor.inertia_kgm2 + axis.ball_screw_inertia_kgm2;
+  return q[0] > 0.0 && q[0] < 10.0 * (axis.guide_mass_kg + inertia_kgm2 * per_lead(axis) * per_lead(axis));
 }
 
 }  // namespace
