@@ -62,6 +62,7 @@ Hypothesis hard_stop() {
           .about_reversals = true,
           .confused_with = {"local_friction", "cable_spring"},
           .shapes_for = ends_of,
+          .jumps = true,  // it is met a sample earlier or later, at full speed
           .friction = false};
 }
 
