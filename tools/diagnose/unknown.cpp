@@ -8,7 +8,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double smallest_share_unseen = 0.35, smallest_share_of_use = 0.1;  // of a table: to be a verdict, to be used
-constexpr double smallest_remainder_N = 1.0;  // that makes a verdict; a table is of use from any
+constexpr double smallest_remainder_N = 0.5;  // that makes a verdict, as any strength; a table is of use from any
 
 }  // namespace
 

@@ -25,6 +25,9 @@ const char* verdict_of(const Diagnosis& result) {
 bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                           const std::function<void(std::string_view)>& progress) {
   constexpr double least_share = 0.1, least_N = 0.5, unexplained = 0.2;
+  // of 62 made cases with nothing hidden none had more than 6 % of what was left over in structure; two outside the
+  // catalogue that were missed had two thirds and more
+  constexpr double most_of_it = 0.6, least_of_most_N = 0.3;
   const auto& structure_of = fitter.structure();
   const Structure before = structure_of.remaining(found.recalibrated.residual);
   const Structure after = structure_of.remaining(fitter.model().residual(final.axis, final.effects));
@@ -32,7 +35,9 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
   const double explained = std::max(0.0, before.remainder_N * before.remainder_N - after.remainder_N * after.remainder_N);
   progress(fmt::format("structure: {:.2g} N of {:.2g} N left over; before naming {:.2g} N of {:.2g} N", after.structured_N(),
                        after.remainder_N, before.structured_N(), before.remainder_N));
-  return after.share > least_share && after.structured_N() > least_N && structure > unexplained * (structure + explained);
+  const bool enough = (after.share > least_share && after.structured_N() > least_N) ||
+                      (after.share > most_of_it && after.structured_N() > least_of_most_N);
+  return enough && structure > unexplained * (structure + explained);
 }
 
 bool rests_on_force(const Hypothesis& h) {
