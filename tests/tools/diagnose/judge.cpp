@@ -66,13 +66,10 @@ TEST_F(Judged, ANumberThatAWrongModelTookToNothingFindsItsWayBack) {
   EXPECT_NEAR(fit.model.axis.ball_screw.coulomb_N.pos, axis.ball_screw.coulomb_N.pos, 0.05 * axis.ball_screw.coulomb_N.pos);
 }
 
-// Whatever moves the mark's angle, a pass falls into another sample: a step that does so costs more than all else can bring.
-TEST(Jumps, AnEffectIsFittedBesideAMarkThatLosesCounts) {
-  constexpr double amplitude_N = 4.0;
+/// Runs of an axis with two effects. Beside the first, fitted from this start, the second is fitted too: its numbers.
+std::vector<double> fitted_beside(const Active& start, const std::vector<plant::EffectSetting>& effects) {
   auto truth = plant::source_axis(), nominal = truth;
-  truth.effects.push_back(tests::effect("count_loss", {{"counts_per_pass", 141.0}, {"angle_rad", 3.1}}));
-  truth.effects.push_back(
-      tests::effect("rev_ripple", {{"amplitude_N", amplitude_N}, {"cycles_per_rev", 3.37}, {"phase_rad", 1.5}}));
+  truth.effects = effects;
   nominal.motor.inertia_kgm2 *= 1.05;
   nominal.ball_screw.coulomb_N.pos *= 0.95;
   std::vector<tools::Recording> runs;
@@ -85,37 +82,29 @@ TEST(Jumps, AnEffectIsFittedBesideAMarkThatLosesCounts) {
   const InverseModel model(make_tracks(runs, nominal), nominal);
   const Fitter fitter(model, nominal);
   auto whitening = Whitening::estimate(model, model.residual(nominal, {}));
-  const Fit marked = fitter.fit_with_colour({nominal, {{&hypothesis("count_loss"), {139.0, 3.06}}}}, whitening, 2, 6);
-  const auto scores = scores_of({&hypothesis("rev_ripple")}, fitter, marked, whitening);
-  const Fit both = fit_with(fitter, marked.model, scores.front(), 1, whitening, 6);
-  const auto& q = both.model.effects[1].q;
+  const Fit first = fitter.fit_with_colour({nominal, {start}}, whitening, 2, 6);
+  const auto scores = scores_of({&hypothesis(effects[1].id)}, fitter, first, whitening);
+  return fit_with(fitter, first.model, scores.front(), 1, whitening, 6).model.effects[1].q;
+}
+
+// Whatever moves the mark's angle, a pass falls into another sample: a step that does so costs more than all else can bring.
+TEST(Jumps, AnEffectIsFittedBesideAMarkThatLosesCounts) {
+  constexpr double amplitude_N = 4.0;
+  const auto q = fitted_beside(
+      {&hypothesis("count_loss"), {139.0, 3.06}},
+      {tests::effect("count_loss", {{"counts_per_pass", 141.0}, {"angle_rad", 3.1}}),
+       tests::effect("rev_ripple", {{"amplitude_N", amplitude_N}, {"cycles_per_rev", 3.37}, {"phase_rad", 1.5}})});
   EXPECT_NEAR(std::hypot(q[0], q[1]), amplitude_N, 0.1 * amplitude_N);
 }
 
 TEST(Jumps, AnEffectIsFittedBesideAStopThatIsMetASampleEarlierOrLater) {
   constexpr double amplitude_m = 8e-6;
-  auto truth = plant::source_axis(), nominal = truth;
-  truth.effects.push_back(tests::effect(
-      "hard_stop", {{"position_m", 0.0194}, {"direction", 1.0}, {"stiffness_N_per_m", 2e5}, {"damping_Ns_per_m", 1e4}}));
-  truth.effects.push_back(
-      tests::effect("encoder_eccentricity", {{"amplitude_m", amplitude_m}, {"cycles_per_rev", 1.0}, {"phase_rad", -1.3}}));
-  nominal.motor.inertia_kgm2 *= 1.05;
-  nominal.ball_screw.coulomb_N.pos *= 0.95;
-  std::vector<tools::Recording> runs;
-  for (const double speed : {0.02, 0.09})
-    runs.push_back(tests::make_recording(truth, {.motion = "sine",
-                                                 .settings = {.amplitude_m = 0.02, .speed_m_per_s = speed},
-                                                 .duration_s = 6.0,
-                                                 .scale_at_table = true,
-                                                 .seed = static_cast<unsigned>(1000.0 * speed)}));
-  const InverseModel model(make_tracks(runs, nominal), nominal);
-  const Fitter fitter(model, nominal);
-  auto whitening = Whitening::estimate(model, model.residual(nominal, {}));
-  const Candidate start{nominal, {{&hypothesis("hard_stop"), {8e5, 6e3, 0.01935, 1.0}}}};
-  const Fit stopped = fitter.fit_with_colour(start, whitening, 2, 6);
-  const auto scores = scores_of({&hypothesis("encoder_eccentricity")}, fitter, stopped, whitening);
-  const Fit both = fit_with(fitter, stopped.model, scores.front(), 1, whitening, 6);
-  EXPECT_NEAR(std::hypot(both.model.effects[1].q[0], both.model.effects[1].q[1]), amplitude_m, 0.1 * amplitude_m);
+  const auto q = fitted_beside(
+      {&hypothesis("hard_stop"), {8e5, 6e3, 0.01935, 1.0}},
+      {tests::effect("hard_stop",
+                     {{"position_m", 0.0194}, {"direction", 1.0}, {"stiffness_N_per_m", 2e5}, {"damping_Ns_per_m", 1e4}}),
+       tests::effect("encoder_eccentricity", {{"amplitude_m", amplitude_m}, {"cycles_per_rev", 1.0}, {"phase_rad", -1.3}})});
+  EXPECT_NEAR(std::hypot(q[0], q[1]), amplitude_m, 0.1 * amplitude_m);
 }
 
 TEST(Starts, ADeadTimeOfSeveralTicksIsReachedThoughASensorReadsAnotherCommandWithEach) {
