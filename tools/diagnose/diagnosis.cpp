@@ -68,7 +68,10 @@ class Diagnosing {
     fit_ = found_.final;
     forward_.learn_meter(extended(fit_.model));
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    const auto names_before = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_);
+    const bool same = std::ranges::equal(names_before, fit_.model.effects, {}, &Active::hypothesis, &Active::hypothesis);
+    if (!same) keep_confirmed_again();
     // a name that every unseen fold bears out stays, whatever else is left over
     const bool certain = std::ranges::any_of(found_.found, [](const Found& one) {
       return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
@@ -79,6 +82,12 @@ class Diagnosing {
     const std::size_t seen_before = found_.found.size();
     settled_ = look_again(forward_, fitter_, found_, fit_, settled_, progress_);
     if (found_.found.size() > seen_before) ask_the_others_again();
+  }
+
+  void keep_confirmed_again() {
+    const std::size_t before = fit_.model.effects.size();
+    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    if (fit_.model.effects.size() < before) settled_ = fit_.model;
   }
 
   /// What was named in place of a name that came later goes.

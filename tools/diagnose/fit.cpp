@@ -107,7 +107,7 @@ std::vector<Fitter::Beside> Fitter::beside_of(const Candidate& at) const {
     for (std::size_t j = 0; j < at.effects[e].q.size(); ++j) {
       const auto& p = at.effects[e].hypothesis->parameters[j];
       if (!fitted(p.kind)) continue;
-      Beside near{at, p.step, at.effects[e].hypothesis->friction};
+      Beside near{at, p.step, moves_friction(*at.effects[e].hypothesis, at.effects)};
       double& value = near.model.effects[e].q[j];
       if (value + near.step > p.highest) near.step = -near.step;
       value += near.step;

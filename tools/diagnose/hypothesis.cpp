@@ -26,6 +26,15 @@ bool worth_naming(const Active& active) {
   return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
 }
 
+bool loads_table(const Hypothesis& hypothesis) {
+  return hypothesis.component == "guide" && !hypothesis.friction;
+}
+
+bool moves_friction(const Hypothesis& hypothesis, const std::vector<Active>& effects) {
+  return hypothesis.friction ||
+         (loads_table(hypothesis) && std::ranges::any_of(effects, [](const Active& a) { return a.hypothesis->by_load; }));
+}
+
 bool easily_confused(const Hypothesis& one, const Hypothesis& other) {
   return std::ranges::find(one.confused_with, other.id) != one.confused_with.end() ||
          std::ranges::find(other.confused_with, one.id) != other.confused_with.end();

@@ -21,11 +21,14 @@ struct Baseline {
   Vector power_W;          ///< drive input
 };
 
+struct Contribution;
+
 /// What the law may look at.
 struct View {
   const Track& track;
   const plant::AxisParameters& axis;
   const Baseline& base;
+  const Contribution* on_table = nullptr;  ///< what other effects load the table with; for laws that ask for it
 };
 
 /// What an effect adds at every sample. An empty vector stands for zeros (ones for the factors).
@@ -102,6 +105,7 @@ struct Hypothesis {
   bool jumps = false;       ///< its law jumps with its numbers: a mark is passed a sample earlier or later
   bool friction = false;    ///< sets the factors, so that friction must be followed again
   bool forces_too = false;  ///< and more than these: otherwise the forces need not ask it
+  bool by_load = false;     ///< asks what other effects load the table with
 };
 
 /// A hypothesis that is part of the model, with its working parameters.
@@ -118,6 +122,10 @@ struct Active {
 [[nodiscard]] constexpr bool fitted(Kind kind) {
   return kind == Kind::amplitude || kind == Kind::shape;
 }
+/// Does it load the table with a force or a mass?
+[[nodiscard]] bool loads_table(const Hypothesis& hypothesis);
+/// Is friction another when this one's numbers are others, beside the effects of the model?
+[[nodiscard]] bool moves_friction(const Hypothesis& hypothesis, const std::vector<Active>& effects);
 /// Does either name the other as what it is confused with?
 [[nodiscard]] bool easily_confused(const Hypothesis& one, const Hypothesis& other);
 /// Are both so small that they do the same to every sample?

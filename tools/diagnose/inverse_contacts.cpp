@@ -18,9 +18,12 @@ struct Factors {
 Factors factors_of(const std::vector<Active>& effects, const plant::AxisParameters& axis, const Track& track) {
   constexpr double least = 0.05;
   const Baseline none;
-  Contribution sum;
+  Contribution sum, on_table;
+  const bool by_load = std::ranges::any_of(effects, [](const Active& a) { return a.hypothesis->by_load; });
   for (const auto& effect : effects)
-    if (effect.hypothesis->friction) effect.hypothesis->apply({track, axis, none}, effect.q, sum);
+    if (by_load && loads_table(*effect.hypothesis)) effect.hypothesis->apply({track, axis, none}, effect.q, on_table);
+  for (const auto& effect : effects)
+    if (effect.hypothesis->friction) effect.hypothesis->apply({track, axis, none, &on_table}, effect.q, sum);
   return {sum.screw_sliding.cwiseMax(least), sum.screw_viscous.cwiseMax(least)};
 }
 
@@ -29,8 +32,8 @@ bool alike(const InverseModel::Asked& one, const InverseModel::Asked& other) {
   const auto &a = *one.axis, &b = *other.axis;
   if (!(a.ball_screw == b.ball_screw && a.guide == b.guide && a.guide_mass_kg == b.guide_mass_kg && a.axis == b.axis))
     return false;
-  return std::ranges::equal(*one.effects, *other.effects, [](const Active& p, const Active& q) {
-    return p.hypothesis == q.hypothesis && (!p.hypothesis->friction || p.q == q.q);
+  return std::ranges::equal(*one.effects, *other.effects, [&](const Active& p, const Active& q) {
+    return p.hypothesis == q.hypothesis && (p.q == q.q || !moves_friction(*p.hypothesis, *one.effects));
   });
 }
 

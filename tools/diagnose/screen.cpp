@@ -109,7 +109,9 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
   start.effects.insert(start.effects.begin() + static_cast<std::ptrdiff_t>(place), at_zero(more));
   Fit best = fitter.fit(start, whitening, iterations);
   const auto allowed = [place](const Fit& fit) { return possible(fit.model.effects[place], fit.model.axis); };
-  for (const auto& q : more.hypothesis->starts) {
+  auto starts = more.hypothesis->starts;
+  if (more.hypothesis->jumps) starts.push_back(more.q);
+  for (const auto& q : starts) {
     if (q == at_zero(more).q) continue;
     start.effects[place].q = q;
     const Fit other = fitter.fit(start, whitening, first_look);

@@ -162,6 +162,29 @@ TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
   }
 }
 
+// M_L a and the weight change sign apart, so that the load of the one alone is another law.
+TEST(LoadDependentFriction, RisesWithTheWeightAsWellAsWithTheMass) {
+  constexpr double weight_N = -10.0, per_load = 0.35;
+  const auto nominal = plant::source_axis();
+  auto truth = nominal;
+  truth.effects = {tests::effect("gravity", {{"force_N", weight_N}}),
+                   tests::effect("load_dependent_friction", {{"friction_per_load", per_load}})};
+  const InverseModel model(make_tracks(runs_of(truth, true, false), nominal), nominal);
+  const Candidate start{nominal, {{&hypothesis("gravity"), {0.0}}, {&hypothesis("load_dependent_friction"), {0.0}}}};
+  const Candidate fitted = Fitter(model, nominal).fit(start, whitening_of(true, false), 10).model;
+  EXPECT_NEAR(fitted.effects[0].q[0], weight_N, 0.03 * std::abs(weight_N));
+  EXPECT_NEAR(fitted.effects[1].q[0], per_load, 0.03 * per_load);
+}
+
+TEST(SublinearViscous, IsBelowOneAndToldFromOne) {
+  const auto can_be = [](double exponent) {
+    return possible({&hypothesis("sublinear_viscous"), {1.0 - exponent}}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(0.98));
+  EXPECT_FALSE(can_be(0.995)) << "linear";
+  EXPECT_FALSE(can_be(1.05)) << "drag";
+}
+
 // The forces do not ask a law that only scales friction: so it must not add any.
 TEST(LawsOfFriction, AddNoForceWhereTheySayTheyOnlyScale) {
   const Track track = make_track(runs_of(plant::source_axis(), true, true).front(), plant::source_axis());

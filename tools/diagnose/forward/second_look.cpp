@@ -13,7 +13,7 @@ namespace {
 
 constexpr int iterations = 6;
 constexpr std::size_t most_asked = 4;
-constexpr double least_gain = 50.0, largest_p = 0.01;   // by the inverse model
+constexpr double least_gain = 50.0;                     // by the inverse model
 constexpr double beyond_noise = 2.0;                    // a channel that is worth the question
 constexpr double least_ratio = 1.5, least_share = 0.5;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
@@ -35,10 +35,10 @@ Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, bool 
   return best;
 }
 
-bool can_be_asked(const Score& score, const Candidate& model, const Screen& left) {
+bool can_be_asked(const Score& score, const Candidate& model) {
   const Hypothesis& h = *score.hypothesis;
   // what acts at reversals is also what one bristle cannot do of any friction
-  return !has(model, h) && !h.about_reversals && score.gain > least_gain && left.p_false_alarm(score.standard) < largest_p;
+  return !has(model, h) && !h.about_reversals && score.gain > least_gain;
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ Candidate look_again(const ForwardModel& forward, const Fitter& fitter, SearchRe
                      const Candidate& settled, const std::function<void(std::string_view)>& progress) {
   std::vector<Score> asked;
   for (const auto& score : found.last.scores)
-    if (can_be_asked(score, fit.model, found.last) && asked.size() < most_asked) asked.push_back(score);
+    if (can_be_asked(score, fit.model) && asked.size() < most_asked) asked.push_back(score);
   if (asked.empty()) return settled;
   const auto floor = forward.noise_floor(extended(settled));
   const auto is_off = [&](const Nrmse& errors) {

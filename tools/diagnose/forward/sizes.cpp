@@ -88,7 +88,7 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
     const bool agreed = share_of_size(fit.model.effects[e], by_inverse_model) > least_share;
     const double least = told ? least_change : doubtless_change;
-    bool has_size = agreed && largest_change(with, less) > least;
+    bool has_size = agreed && possible(fit.model.effects[e], fit.model.axis) && largest_change(with, less) > least;
     if (has_size && !told) {  // the other numbers may take up what it does
       rest = polished_if_closer(forward, fitter, rest);
       less = forward.nrmse(extended(rest));

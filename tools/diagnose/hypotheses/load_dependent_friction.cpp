@@ -1,4 +1,4 @@
-// Friction that rises with the load on the nut: F_C and F_S times 1 + c |F| / F_C, F = M_L a.
+// Friction that rises with the load on the nut: F_C and F_S times 1 + c |F| / F_C, F = M_L a + what else loads the table.
 
 #include <cmath>
 
@@ -11,10 +11,13 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const auto& coulomb = view.axis.ball_screw.coulomb_N;
+  const Contribution none, &loads = view.on_table != nullptr ? *view.on_table : none;
+  const double mass_kg = view.axis.guide_mass_kg + loads.table_mass_kg;
   Vector factor = Vector::Ones(track.size);
   for (Index k = 1; k < track.size; ++k) {  // from the smoothed motion: its noise would be rectified
     const double change = track.table_velocity_m_per_s[k] - track.table_velocity_m_per_s[k - 1];
-    const double nut_N = view.axis.guide_mass_kg * std::abs(change) / track.sample_s;
+    const double load_N = loads.guide_N.size() > 0 ? loads.guide_N[k] : 0.0;
+    const double nut_N = std::abs(mass_kg * change / track.sample_s + load_N);
     factor[k] += q[0] * nut_N / (track.velocity_m_per_s[k] > 0.0 ? coulomb.pos : coulomb.neg);
   }
   scale(sum.screw_sliding, factor);
@@ -43,7 +46,8 @@ Hypothesis load_dependent_friction() {
           .sentence = "the screw's friction rises by {friction_per_load} N for each newton on the nut",
 
           .confused_with = {"torque_gain_error"},
-          .friction = true};
+          .friction = true,
+          .by_load = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis

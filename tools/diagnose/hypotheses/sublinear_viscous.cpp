@@ -26,7 +26,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return std::abs(q[0]) > 0.03;
+  return q[0] > 0.01;  // above one it is drag
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ Hypothesis sublinear_viscous() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::velocity,
-          .parameters = {{"exponent_below_one", Kind::amplitude, 1e-2, -0.5, 0.75}},
+          .parameters = {{"exponent_below_one", Kind::amplitude, 1e-2, 0.0, 0.75}},
           .shapes = {{}},
           .apply = apply,
           .named = named,
