@@ -1,5 +1,7 @@
 #include "tools/diagnose/hypothesis.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -24,6 +26,13 @@ bool possible(const Active& active, const plant::AxisParameters& axis) {
 
 bool worth_naming(const Active& active) {
   return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
+}
+
+std::string in_words(const Active& active, const plant::AxisParameters& axis) {
+  std::string values;
+  for (const auto& [name, value] : active.hypothesis->named(active.q, axis))
+    values += fmt::format("{}{} {:.4g}", values.empty() ? "" : ", ", name, value);
+  return fmt::format("{} ({})", active.hypothesis->id, values);
 }
 
 bool loads_table(const Hypothesis& hypothesis) {

@@ -99,6 +99,9 @@ struct Hypothesis {
   std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
   /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.
   std::vector<std::vector<double>> starts = {};
+  /// Where the closed loop starts from when the inverse model finds no possible size, which it then can say little about;
+  /// none: it is not asked then.
+  std::vector<double> closed_loop_start = {};
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 
@@ -116,6 +119,8 @@ struct Active {
 
 /// Is the fitted value physically possible?
 [[nodiscard]] bool possible(const Active& active, const plant::AxisParameters& axis);
+/// "cogging (amplitude_Nm 0.012, cycles_per_rev 12)"
+[[nodiscard]] std::string in_words(const Active& active, const plant::AxisParameters& axis);
 /// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
 [[nodiscard]] bool worth_naming(const Active& active);
 /// Is it an unknown of the inverse model, and of the intervals?

@@ -30,14 +30,6 @@ std::string best_of(const Screen& screened) {
   return text;
 }
 
-/// "cogging (amplitude_Nm 0.012, cycles_per_rev 12)"
-std::string in_words(const Active& active, const plant::AxisParameters& axis) {
-  std::string values;
-  for (const auto& [name, value] : active.hypothesis->named(active.q, axis))
-    values += fmt::format("{}{} {:.4g}", values.empty() ? "" : ", ", name, value);
-  return fmt::format("{} ({})", active.hypothesis->id, values);
-}
-
 class Search {
  public:
   Search(const Fitter& fitter, const Bar& bar, const std::function<void(std::string_view)>& progress)

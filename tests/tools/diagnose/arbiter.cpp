@@ -6,6 +6,7 @@
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/missed.h"
 #include "tools/diagnose/forward/ruling.h"
 #include "tools/diagnose/forward/sizes.h"
 
@@ -97,7 +98,7 @@ TEST(Contest, WhoIsBehindAlsoGoesOnFromTheOthersNumbersHoweverFarBehind) {
   Candidate astray = right;  // where a search of its own had gone
   for (auto* contact : {&astray.axis.ball_screw, &astray.axis.guide}) contact->coulomb_N = {1.0, 1.0};
   const auto ruling = [&made](const Candidate& model) {
-    Ruling now{made.fitter.linearised(model, made.whitening), model, likelihood(made.forward, extended(model)), 0.0};
+    Ruling now{made.fitter.linearised(model, made.whitening), model, likelihood(made.forward, extended(model)), 0.0, {}};
     now.value = now.likelihood.total();
     return now;
   };
@@ -105,6 +106,23 @@ TEST(Contest, WhoIsBehindAlsoGoesOnFromTheOthersNumbersHoweverFarBehind) {
   ASSERT_GT(ahead.value - behind.value, 1500.0);
   contest(behind, ahead, made.forward, made.fitter);
   EXPECT_GT(behind.value, ahead.value);
+}
+
+TEST(Missed, ANameThatTheClosedLoopDoesAsWellWithoutIsTakenBackAndTheRightOneStays) {
+  const Cogged made;
+  Candidate model{made.data.axis,
+                  {{&hypothesis("local_friction"), {1.0, 0.004, 0.002}}, {&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
+  Fit fit = made.fitter.linearised(model, made.whitening);
+  SearchResult result;
+  result.whitening = made.whitening;
+  for (const auto& effect : model.effects) result.found.emplace_back().effect = effect;
+  Ruling settled = rule(fit, made.forward, made.fitter);
+  keep_missed(made.forward, made.fitter, result, fit, settled, silent);
+  ASSERT_EQ(fit.model.effects.size(), 1U);
+  EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
+  ASSERT_EQ(result.found.size(), 1U);
+  EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
+  EXPECT_EQ(settled.model.effects.size(), 1U);
 }
 
 TEST(Sizes, WhatOtherNumbersCanTakeUpIsTakenBackWhereItsOwnAreNotTold) {

@@ -34,7 +34,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, iterations);
     if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
-    Ruling rival = rule_beside(now, other, forward_, fitter_);
+    Ruling rival = rule_beside(now, other, forward_, fitter_, SlopesOf::anew);
     if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
     contest(now, rival, forward_, fitter_);
     if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
@@ -58,8 +58,8 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   return false;
 }
 
-Candidate Arbiter::settle(SearchResult& found, Fit& fit) const {
-  if (found.found.empty()) return fit.model;
+std::optional<Ruling> Arbiter::settle(SearchResult& found, Fit& fit) const {
+  if (found.found.empty()) return std::nullopt;
   constexpr int most_exchanges = 3;
   Ruling now = rule(fit, forward_, fitter_);
   std::vector<const Hypothesis*> beaten;
@@ -69,7 +69,7 @@ Candidate Arbiter::settle(SearchResult& found, Fit& fit) const {
     if (again) ++exchanges;
     e = again ? 0 : e + 1;
   }
-  return now.model;
+  return now;
 }
 
 }  // namespace feedtwin::tools::diagnosis

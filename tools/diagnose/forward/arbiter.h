@@ -3,6 +3,8 @@
 // loop, and the likelihoods of what is left over are compared. Takes a better one in a named one's place; where none is
 // clearly better both stay in question; one that is clearly worse is ruled out.
 
+#include <optional>
+
 #include "tools/diagnose/forward/ruling.h"
 #include "tools/diagnose/search.h"
 
@@ -14,8 +16,8 @@ class Arbiter {
       : forward_(forward), fitter_(fitter), progress_(progress) {}
 
   /// Settles every named effect of the fit; what it changes is changed in both.
-  /// @return the fit's model with its numbers as the closed loop has them
-  Candidate settle(SearchResult& found, Fit& fit) const;
+  /// @return the fit's model as the closed loop has it; none where nothing was named
+  std::optional<Ruling> settle(SearchResult& found, Fit& fit) const;
 
  private:
   /// @param beaten were exchanged before and are not asked again

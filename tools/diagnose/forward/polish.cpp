@@ -82,11 +82,16 @@ std::vector<Index> shared_unknowns(const Fitter& fitter, const Candidate& model)
 
 Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candidate& start, const PolishSettings& settings) {
   const auto unknowns = unknowns_of(fitter, start);
-  const BatchSimulator simulator = [&](const ClosedLoopRun& run, const Eigen::MatrixXd& points) {
-    std::vector<plant::AxisParameters> axes;
+  const BatchSimulator simulator = [&](const ClosedLoopRun& run, const Eigen::MatrixXd& all) {
     const auto place = static_cast<std::size_t>(&run - forward.runs().data());
-    for (Index i = 0; i < points.cols(); ++i) axes.push_back(extended(at(fitter, start, points.col(i))).of(place));
-    return forward.simulate(run, axes);
+    const auto simulate = [&](const Eigen::MatrixXd& points) {
+      std::vector<plant::AxisParameters> axes;
+      for (Index i = 0; i < points.cols(); ++i) axes.push_back(extended(at(fitter, start, points.col(i))).of(place));
+      return forward.simulate(run, axes);
+    };
+    auto simulated = settings.known != nullptr ? settings.known->simulated(place, all, simulate) : simulate(all);
+    if (settings.learned != nullptr) settings.learned->learn(place, all, simulated);
+    return simulated;
   };
   OutputErrorSettings output_error;
   output_error.prior = 1.0;

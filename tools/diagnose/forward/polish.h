@@ -3,6 +3,7 @@
 // numbers under their prior and the effects' own free, started from what the inverse model found.
 
 #include "tools/diagnose/forward/forward_model.h"
+#include "tools/diagnose/forward/slopes.h"
 #include "tools/identify/output_error.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -21,6 +22,8 @@ struct PolishSettings {
   int rounds = 2, most_iterations = 4;
   double least_fall_nats = 0.5;  ///< what a number costs that is off by its own deviation; the last step is taken
   bool coloured_from_start = false, intervals = true;
+  const Slopes* known = nullptr;  ///< of the nominal model's numbers, not seen anew
+  Slopes* learned = nullptr;      ///< takes the slopes that this polish sees, the last of them
 };
 
 [[nodiscard]] Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candidate& start,

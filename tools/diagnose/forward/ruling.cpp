@@ -25,15 +25,20 @@ Candidate with_numbers_of(const Candidate& other, Candidate model) {
   return model;
 }
 
+/// @param known slopes of an explanation beside it; nullptr: seen anew
 Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
-                int most_iterations) {
+                int most_iterations, std::shared_ptr<const Slopes> known) {
   PolishSettings settings;
   settings.rounds = 1;
   settings.most_iterations = most_iterations;
   settings.least_fall_nats = 2.0;
   settings.coloured_from_start = true;
   settings.intervals = false;
-  Ruling ruling{fit, start, likelihood(forward, extended(start)), 0.0};
+  std::shared_ptr<Slopes> learned;
+  if (!known) learned = std::make_shared<Slopes>(forward.runs().size(), static_cast<Index>(fitter.base().size()));
+  settings.known = known.get();
+  settings.learned = learned.get();
+  Ruling ruling{fit, start, likelihood(forward, extended(start)), 0.0, known ? std::move(known) : learned};
   const Candidate better = polish(forward, fitter, start, settings).model;
   if (auto found = likelihood(forward, extended(better)); found.total() > ruling.likelihood.total())
     ruling.model = better, ruling.likelihood = std::move(found);
@@ -45,18 +50,21 @@ Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forw
 }  // namespace
 
 Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
-  return polished(fit, fit.model, forward, fitter, first_iterations);
+  return polished(fit, fit.model, forward, fitter, first_iterations, nullptr);
 }
 
-Ruling rule_again(const Fit& fit, const Candidate& polished_before, const ForwardModel& forward, const Fitter& fitter) {
-  return polished(fit, polished_before, forward, fitter, further_iterations);
+Ruling rule_again(const Ruling& before, const ForwardModel& forward, const Fitter& fitter, SlopesOf slopes) {
+  return polished(before.fit, before.model, forward, fitter, further_iterations,
+                  slopes == SlopesOf::before ? before.slopes : nullptr);
 }
 
-Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
+Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
+                   SlopesOf slopes) {
   const Candidate beside = with_numbers_of(before.model, fit.model);
   const double own = likelihood(forward, extended(fit.model)).total();
   const bool better = likelihood(forward, extended(beside)).total() > own;
-  return polished(fit, better ? beside : fit.model, forward, fitter, further_iterations);
+  return polished(fit, better ? beside : fit.model, forward, fitter, further_iterations,
+                  slopes == SlopesOf::before ? before.slopes : nullptr);
 }
 
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter) {
@@ -67,9 +75,12 @@ void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitt
     const Candidate beside = with_numbers_of(ahead.model, behind.model);
     const bool better_beside = likelihood(forward, extended(beside)).total() > behind.likelihood.total();
     if (!better_beside && ahead.value - behind.value > hopeless_nats) return;
-    Ruling further = polished(behind.fit, better_beside ? beside : behind.model, forward, fitter, further_iterations);
+    const auto further_from = [&](const Candidate& start) {
+      return polished(behind.fit, start, forward, fitter, further_iterations, nullptr);
+    };
+    Ruling further = further_from(better_beside ? beside : behind.model);
     if (further.value < behind.value + of_consequence_nats) {
-      Ruling second = polished(behind.fit, better_beside ? behind.model : beside, forward, fitter, further_iterations);
+      Ruling second = further_from(better_beside ? behind.model : beside);
       if (second.value > further.value) further = std::move(second);
     }
     if (further.value < behind.value + of_consequence_nats) return;

@@ -2,7 +2,10 @@
 // What the closed loop makes of an explanation: its numbers as polished there, and how likely the runs are under it. Numbers
 // that would do for two explanations must not decide between them, so each also starts from the other's.
 
+#include <memory>
+
 #include "tools/diagnose/forward/likelihood.h"
+#include "tools/diagnose/forward/slopes.h"
 #include "tools/diagnose/search.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -11,15 +14,19 @@ struct Ruling {
   Fit fit;          ///< by the inverse model
   Candidate model;  ///< polished in closed loop
   Likelihood likelihood;
-  double value = 0.0;  ///< nats, less what its parameters cost
+  double value = 0.0;                    ///< nats, less what its parameters cost
+  std::shared_ptr<const Slopes> slopes;  ///< of the nominal model's numbers, as the first explanation's polish saw them
 };
 
 [[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
-/// The same model where it was polished before.
-[[nodiscard]] Ruling rule_again(const Fit& fit, const Candidate& polished_before, const ForwardModel& forward,
-                                const Fitter& fitter);
+/// Slopes of the nominal model's numbers for a polish: those of the ruling before it cost nothing, and serve where the
+/// numbers stay about where they were.
+enum class SlopesOf { before, anew };
+/// The same model, polished further.
+[[nodiscard]] Ruling rule_again(const Ruling& before, const ForwardModel& forward, const Fitter& fitter, SlopesOf slopes);
 /// Another explanation, from its own numbers or from those of one that was polished before, whichever are likelier.
-[[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
+[[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
+                                 SlopesOf slopes);
 /// The one that is behind is polished further, from its own numbers or the other's, as long as that helps and it is not
 /// hopelessly behind: what decides must not be who was polished more.
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter);

@@ -6,12 +6,11 @@
 #include <optional>
 
 #include "tools/diagnose/forward/extended_axis.h"
-#include "tools/diagnose/forward/ruling.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int iterations = 6;
+constexpr int iterations = 6, most_names = 2;
 constexpr std::size_t most_asked = 4;
 constexpr double least_gain = 50.0;                     // by the inverse model
 constexpr double beyond_noise = 2.0;                    // a channel that is worth the question
@@ -35,56 +34,99 @@ Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, bool 
   return best;
 }
 
-bool can_be_asked(const Score& score, const Candidate& model) {
-  const Hypothesis& h = *score.hypothesis;
-  // what acts at reversals is also what one bristle cannot do of any friction
-  return !has(model, h) && !h.about_reversals && score.gain > least_gain;
+/// What the inverse model would welcome, the most welcome first; and what it can say little about.
+std::vector<Score> questions(const Screen& left, const Candidate& model) {
+  std::vector<Score> asked, untold;
+  for (const auto& score : left.scores) {
+    const Hypothesis& h = *score.hypothesis;
+    if (has(model, h)) continue;
+    if (!h.closed_loop_start.empty()) untold.push_back(score);
+    // what acts at reversals is also what one bristle cannot do of any friction
+    else if (!h.about_reversals && score.gain > least_gain && asked.size() < most_asked)
+      asked.push_back(score);
+  }
+  asked.insert(asked.end(), untold.begin(), untold.end());
+  return asked;
 }
+
+class SecondLook {
+ public:
+  SecondLook(const ForwardModel& forward, const Fitter& fitter, const std::function<void(std::string_view)>& progress)
+      : forward_(forward), fitter_(fitter), progress_(progress) {}
+
+  /// One name more, if there is one.
+  bool look(SearchResult& found, Fit& fit, std::optional<Ruling>& settled) {
+    const auto asked = questions(found.last, fit.model);
+    const Candidate& model = settled ? settled->model : fit.model;
+    if (asked.empty()) return false;
+    floor_ = forward_.noise_floor(extended(model));
+    if (!is_off(forward_.nrmse(extended(model)))) return false;
+    settled = settled ? rule_again(*settled, forward_, fitter_, SlopesOf::before) : rule(fit, forward_, fitter_);
+    errors_ = forward_.nrmse(extended(settled->model));
+    if (!is_off(errors_)) return false;
+    std::optional<Ruling> best;
+    const Score* better = nullptr;
+    for (const auto& score : asked) {
+      auto one = answer(score, *settled, found.whitening, fit);
+      if (!one || (best && best->value > one->value)) continue;
+      best = std::move(one), better = &score;
+    }
+    if (!best) return false;
+    const double gain = fit.cost - best->fit.cost;
+    found.found.push_back({.effect = best->model.effects.back(),
+                           .gain = gain,
+                           .share = std::clamp(gain / std::max(1.0, better->touched), 0.0, 1.0),
+                           .strength = 0.0,
+                           .p_false_alarm = found.last.p_false_alarm(better->standard),
+                           .rivals = {},
+                           .held_everywhere = false});
+    fit = best->fit;
+    settled = std::move(best);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] bool is_off(const Nrmse& errors) const {
+    return std::ranges::any_of(errors, [&](const auto& e) { return e.second > beyond_noise * floor_.at(e.first); });
+  }
+
+  /// The closed loop with one effect more; nothing where that is not the answer.
+  [[nodiscard]] std::optional<Ruling> answer(const Score& score, const Ruling& now, const Whitening& whitening,
+                                             const Fit& fit) const {
+    Fit with = fit_with(fitter_, fit.model, score, fit.model.effects.size(), whitening, iterations);
+    Active& effect = with.model.effects.back();
+    if (!can_be_named(effect, with.model.axis)) {
+      if (score.hypothesis->closed_loop_start.empty()) return std::nullopt;
+      effect.q = score.hypothesis->closed_loop_start;
+    }
+    Ruling one = rule_beside(now, with, forward_, fitter_, SlopesOf::anew);
+    if (!can_be_named(one.model.effects.back(), one.model.axis)) return std::nullopt;
+    const auto seen = closer(errors_, forward_.nrmse(extended(one.model)), floor_, score.hypothesis->only_readings);
+    const auto difference = compared(one.likelihood, now.likelihood);
+    progress_(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %",
+                          score.hypothesis->id, one.value - now.value, difference.deviations,
+                          seen.channel.empty() ? "no channel" : seen.channel, seen.ratio, 100.0 * seen.share));
+    const bool is_answer = seen.ratio >= least_ratio && seen.share >= least_share && one.value - now.value >= least_nats &&
+                           difference.deviations >= least_deviations;
+    return is_answer ? std::optional(std::move(one)) : std::nullopt;
+  }
+
+  const ForwardModel& forward_;
+  const Fitter& fitter_;
+  const std::function<void(std::string_view)>& progress_;
+  Nrmse floor_, errors_;
+};
 
 }  // namespace
 
-Candidate look_again(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
-                     const Candidate& settled, const std::function<void(std::string_view)>& progress) {
-  std::vector<Score> asked;
-  for (const auto& score : found.last.scores)
-    if (can_be_asked(score, fit.model) && asked.size() < most_asked) asked.push_back(score);
-  if (asked.empty()) return settled;
-  const auto floor = forward.noise_floor(extended(settled));
-  const auto is_off = [&](const Nrmse& errors) {
-    return std::ranges::any_of(errors, [&](const auto& e) { return e.second > beyond_noise * floor.at(e.first); });
-  };
-  if (!is_off(forward.nrmse(extended(settled)))) return settled;
-  const Ruling now = found.found.empty() ? rule(fit, forward, fitter) : rule_again(fit, settled, forward, fitter);
-  const Nrmse errors = forward.nrmse(extended(now.model));
-  if (!is_off(errors)) return now.model;
-  std::optional<Ruling> best;
-  const Score* better = nullptr;
-  for (const auto& score : asked) {
-    const Fit with = fit_with(fitter, fit.model, score, fit.model.effects.size(), found.whitening, iterations);
-    if (!can_be_named(with.model.effects.back(), with.model.axis)) continue;
-    Ruling one = rule_beside(now, with, forward, fitter);
-    if (!can_be_named(one.model.effects.back(), one.model.axis)) continue;
-    const auto seen = closer(errors, forward.nrmse(extended(one.model)), floor, score.hypothesis->only_readings);
-    const auto difference = compared(one.likelihood, now.likelihood);
-    progress(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %",
-                         score.hypothesis->id, one.value - now.value, difference.deviations,
-                         seen.channel.empty() ? "no channel" : seen.channel, seen.ratio, 100.0 * seen.share));
-    if (seen.ratio < least_ratio || seen.share < least_share || one.value - now.value < least_nats ||
-        difference.deviations < least_deviations || (best && best->value > one.value))
-      continue;
-    best = std::move(one), better = &score;
-  }
-  if (!best) return now.model;
-  const Active& effect = best->model.effects.back();
-  found.found.push_back({.effect = effect,
-                         .gain = fit.cost - best->fit.cost,
-                         .share = std::clamp((fit.cost - best->fit.cost) / std::max(1.0, better->touched), 0.0, 1.0),
-                         .strength = 0.0,
-                         .p_false_alarm = found.last.p_false_alarm(better->standard),
-                         .rivals = {},
-                         .held_everywhere = false});
-  fit = best->fit;
-  return best->model;
+std::optional<Ruling> look_again(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
+                                 const std::optional<Ruling>& settled,
+                                 const std::function<void(std::string_view)>& progress) {
+  SecondLook second(forward, fitter, progress);
+  auto ruling = settled;
+  for (int names = 0; names < most_names && second.look(found, fit, ruling); ++names)
+    found.last = screen(fitter, fit, found.whitening);
+  return ruling;
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -15,8 +15,9 @@ namespace feedtwin::tools::diagnosis {
                                                            Index base_count);
 
 /// Takes back names for which the closed loop finds no size: no channel changes when the effect goes, its interval holds
-/// nothing and the other numbers can take up what it does, or it is a small part of what the inverse model found. Their
-/// rows leave the covariance too.
+/// nothing and the other numbers can take up what it does, or it is a small part of what the inverse model found; but not
+/// where it is missed by hundreds of nats. And those that came out at a size that cannot be. Their rows leave the
+/// covariance too.
 void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Candidate& by_inverse_model, SearchResult& found,
                    Fit& fit, Eigen::MatrixXd& covariance, const std::function<void(std::string_view)>& progress);
 

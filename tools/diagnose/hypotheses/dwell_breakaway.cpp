@@ -50,6 +50,7 @@ Hypothesis dwell_breakaway() {
           .least_gain = 100.0,  // friction about reversals is modelled worst: 33 to 93 where there was none, true ones 364
           .about_reversals = true,
           .confused_with = {"presliding_memory"},
+          .closed_loop_start = {0.3, 1.0},  // about reversals the inverse model has only their ratio, and that roughly
           .friction = true};
 }
 
