@@ -38,6 +38,7 @@ struct Found {
   double p_false_alarm = 1.0;
   std::vector<const Hypothesis*> rivals;  ///< fit as well in its place
   bool held_everywhere = false;           ///< on every unseen fold, with nearly all of its gain
+  bool by_closed_loop = false;            ///< asked for by the closed loop alone
   double missed_nats = 0.0;  ///< how much less likely the runs are in closed loop without it, all other numbers free
 };
 

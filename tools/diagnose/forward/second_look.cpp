@@ -79,7 +79,8 @@ class SecondLook {
                            .strength = 0.0,
                            .p_false_alarm = found.last.p_false_alarm(better->standard),
                            .rivals = {},
-                           .held_everywhere = false});
+                           .held_everywhere = false,
+                           .by_closed_loop = true});
     fit = best->fit;
     settled = std::move(best);
     return true;
