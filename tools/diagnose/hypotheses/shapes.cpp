@@ -1,15 +1,41 @@
 #include "tools/diagnose/hypotheses/shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace feedtwin::tools::diagnosis {
 
+namespace {
+
+/// Sine and cosine along a path.
+struct Circle {
+  Vector x;
+  double turn = 0.0;
+  Eigen::ArrayXd sine, cosine;
+};
+
+/// Columns of a Jacobian ask for the same ones over and over, and they were a quarter of the time of a search beside a
+/// ripple: the last few are kept. Compared by value, since another run may come to lie where one was.
+const Circle& circle_of(const Vector& x, double turn) {
+  thread_local std::array<Circle, 12> kept;
+  thread_local std::size_t oldest = 0;
+  for (const auto& circle : kept)
+    if (circle.turn == turn && circle.x.size() == x.size() && circle.x == x) return circle;
+  Circle& circle = kept[oldest];
+  oldest = (oldest + 1) % kept.size();
+  const Eigen::ArrayXd angle = turn * x.array();
+  circle = {x, turn, angle.sin(), angle.cos()};
+  return circle;
+}
+
+}  // namespace
+
 Vector wave(const Vector& x, double period, double order, double sine, double cosine) {
-  const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * order / period * x.array();
+  const Circle& circle = circle_of(x, 2.0 * std::numbers::pi * order / period);
   Vector out = Vector::Zero(x.size());
-  if (sine != 0.0) out += (sine * angle.sin()).matrix();
-  if (cosine != 0.0) out += (cosine * angle.cos()).matrix();
+  if (sine != 0.0) out += (sine * circle.sine).matrix();
+  if (cosine != 0.0) out += (cosine * circle.cosine).matrix();
   return out;
 }
 
