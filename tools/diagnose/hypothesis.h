@@ -97,6 +97,8 @@ struct Hypothesis {
   bool (*too_small_to_tell)(std::span<const double> q, double sample_s) = nullptr;
   /// The grid where it depends on where the axis was; in place of `shapes`.
   std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
+  /// Steps of the amplitudes that the screen looks over, times their own: for laws that no short step shows.
+  std::vector<double> reaches = {1.0};
   /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.
   std::vector<std::vector<double>> starts = {};
   /// Where the closed loop starts from when the inverse model finds no possible size, which it then can say little about;

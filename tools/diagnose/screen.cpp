@@ -40,6 +40,7 @@ Eigen::MatrixXd random_signs(std::size_t blocks) {
 struct Task {
   const Hypothesis* hypothesis;
   const std::vector<double>* shape;
+  double reach;    ///< of the step that its columns are taken over
   bool by_chance;  ///< its gains on surrogates are asked for too
 };
 
@@ -110,7 +111,7 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
   Fit best = fitter.fit(start, whitening, iterations);
   const auto allowed = [place](const Fit& fit) { return possible(fit.model.effects[place], fit.model.axis); };
   auto starts = more.hypothesis->starts;
-  if (more.hypothesis->jumps) starts.push_back(more.q);
+  if (more.hypothesis->jumps || more.hypothesis->reaches.size() > 1) starts.push_back(more.q);
   for (const auto& q : starts) {
     if (q == at_zero(more).q) continue;
     start.effects[place].q = q;
@@ -149,7 +150,8 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
     if (has(fit.model, *asked[h])) continue;
     const std::size_t every = 1 + shapes.size() / most_by_chance;
     for (std::size_t i = 0; i < shapes.size(); ++i)
-      tasks.push_back({asked[h], &shapes[i], against_chance && i % every == 0});
+      for (const double reach : asked[h]->reaches)
+        tasks.push_back({asked[h], &shapes[i], reach, against_chance && i % every == 0});
   }
   std::vector<Score> found(tasks.size());
   Eigen::MatrixXd gains(static_cast<Index>(tasks.size()), surrogates);
@@ -163,7 +165,7 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
     Eigen::MatrixXd columns(model.rows(), count);
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {
       Active near{&hypothesis, at};
-      const double step = hypothesis.parameters[amplitudes[a]].step;
+      const double step = tasks[t].reach * hypothesis.parameters[amplitudes[a]].step;
       near.q[amplitudes[a]] = step;
       columns.col(static_cast<Index>(a)) = fall_of(near) / step;
     }

@@ -168,20 +168,36 @@ TEST(Sizes, WhatTheClosedLoopFindsToBeNothingIsTakenBackAndNothingElse) {
 
 TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
   const Cogged made;
-  const auto left_of = [&made](double by_inverse_model_Nm) {
+  const auto left_of = [&made](double by_inverse_model_Nm, double missed_nats) {
     const auto with = [&made](double amplitude_Nm) {
       return Candidate{made.data.axis, {{&hypothesis("cogging"), {amplitude_Nm, 0.0, 8.0}}}};
     };
     Fit fit = made.fitter.linearised(with(0.01), made.whitening);
     SearchResult result;
     result.found.emplace_back().effect = fit.model.effects[0];
+    result.found[0].missed_nats = missed_nats;
     Eigen::MatrixXd covariance = fit.covariance;
     drop_sizeless(made.forward, made.fitter, with(by_inverse_model_Nm), result, fit, covariance, silent);
     EXPECT_EQ(result.found.size(), fit.model.effects.size());
     return fit.model.effects.size();
   };
-  EXPECT_EQ(left_of(0.02), 1U);
-  EXPECT_EQ(left_of(0.1), 0U);
+  EXPECT_EQ(left_of(0.02, 0.0), 1U);
+  EXPECT_EQ(left_of(0.1, 0.0), 0U);
+  EXPECT_EQ(left_of(0.1, 1000.0), 1U) << "the closed loop misses it";
+}
+
+TEST(Sizes, WhatComesOutAtASizeThatCannotBeIsTakenBackHoweverMuchItIsMissed) {
+  const Cogged made;
+  for (const double rise : {0.1, 0.02}) {
+    const Candidate model{made.data.axis, {{&hypothesis("dwell_breakaway"), {rise, 1.0}}}};
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = model.effects[0];
+    result.found[0].missed_nats = 1000.0;
+    Eigen::MatrixXd covariance = fit.covariance;
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), rise > 0.03 ? 1U : 0U) << rise;
+  }
 }
 
 }  // namespace
