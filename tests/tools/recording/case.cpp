@@ -155,6 +155,21 @@ TEST_F(CaseFolder, WrongUnitsShowWithoutSensorsToo) {
   }
 }
 
+// With a wrong lead, or a load that pulls, the command's share along the sign of the speed may be next to nothing.
+TEST_F(CaseFolder, FrictionThatIsNotAsTheFileHasItIsNoWrongUnit) {
+  for (int i = 0; i <= 160; ++i) {
+    const std::string said = after([&](Recording& r) {
+      r.channels.erase("power_W");  // still that of the whole friction
+      const auto& position_m = of(r, "position_m");
+      for (std::size_t k = 1; k < position_m.size(); ++k) {
+        const double moved_m = position_m[k] - position_m[k - 1];
+        of(r, "torque_cmd_Nm")[k] -= 1e-3 * i * (moved_m > 0.0 ? 1.0 : moved_m < 0.0 ? -1.0 : 0.0);
+      }
+    });
+    EXPECT_EQ(said, "") << i << " mN m less friction";
+  }
+}
+
 TEST_F(CaseFolder, RefusesABadCaseFile) {
   const auto says = [this](const std::string& text) {
     write_whole_file(folder / "case.toml", text);
