@@ -72,24 +72,27 @@ class Diagnosing {
     const auto names_before = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_);
     const bool same = std::ranges::equal(names_before, fit_.model.effects, {}, &Active::hypothesis, &Active::hypothesis);
-    if (!same) ask_the_others_again(nullptr);
+    if (!same) ask_the_others_again();
     // a name that every unseen fold bears out stays, whatever else is left over
     const bool certain = std::ranges::any_of(found_.found, [](const Found& one) {
       return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
     });
     unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_) && !certain;
     if (unknown_) return;
-    forward_.learn_meter_noise(extended(settled_ ? settled_->model : fit_.model));
+    forward_.learn_meter_noise(extended(as_settled()));
     const std::size_t seen_before = found_.found.size();
     settled_ = look_again(forward_, fitter_, found_, fit_, settled_, progress_);
-    if (found_.found.size() > seen_before) ask_the_others_again(found_.found.back().effect.hypothesis);
+    if (found_.found.size() > seen_before) ask_the_others_again();
     if (settled_) keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
   }
 
-  /// What was named in place of a name that came later goes. @param beyond_doubt is not asked
-  void ask_the_others_again(const Hypothesis* beyond_doubt) {
+  /// With the numbers as the closed loop has them, where it was asked.
+  [[nodiscard]] const Candidate& as_settled() const { return settled_ ? settled_->model : fit_.model; }
+
+  /// What was named in place of a name that came later goes.
+  void ask_the_others_again() {
     const std::size_t before = fit_.model.effects.size();
-    keep_confirmed(forward_, fitter_, found_, fit_, progress_, beyond_doubt);
+    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
     if (fit_.model.effects.size() < before) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
   }
 
@@ -98,7 +101,7 @@ class Diagnosing {
     covariance_ = inflation * robust_covariance(model_, fit_);
     by_inverse_model_ = fit_;
     progress_("polishing the numbers by closed-loop simulation");
-    if (!unknown_) take_polished(polish(forward_, fitter_, settled_ ? settled_->model : fit_.model));
+    if (!unknown_) take_polished(polish(forward_, fitter_, as_settled()));
     found_.recalibrated.model =
         fit_.model.effects.empty() ? fit_.model : polished_if_closer(forward_, fitter_, found_.recalibrated.model);
   }

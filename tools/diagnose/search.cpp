@@ -269,6 +269,11 @@ class Search {
 
 }  // namespace
 
+Found* SearchResult::of(const Hypothesis* hypothesis) {
+  const auto own = std::ranges::find(found, hypothesis, [](const Found& one) { return one.effect.hypothesis; });
+  return own == found.end() ? nullptr : &*own;
+}
+
 SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<void(std::string_view)>& progress) {
   return Search(fitter, bar, progress).run();
 }

@@ -48,6 +48,9 @@ struct SearchResult {
   Whitening whitening;  ///< of the final fit
   std::vector<Found> found;
   Screen last;  ///< what the final model leaves over
+
+  /// What was found of it; nullptr where it is not named.
+  [[nodiscard]] Found* of(const Hypothesis* hypothesis);
 };
 
 /// @param progress called with what is being done

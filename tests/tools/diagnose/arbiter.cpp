@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/made_case.h"
+#include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/missed.h"
 #include "tools/diagnose/forward/ruling.h"
@@ -106,6 +107,20 @@ TEST(Contest, WhoIsBehindAlsoGoesOnFromTheOthersNumbersHoweverFarBehind) {
   ASSERT_GT(ahead.value - behind.value, 1500.0);
   contest(behind, ahead, made.forward, made.fitter);
   EXPECT_GT(behind.value, ahead.value);
+}
+
+TEST(Confirm, WhatTheClosedLoopItselfHasNamedIsNotAsked) {
+  const Cogged made;
+  for (const bool by_closed_loop : {false, true}) {
+    Fit fit = made.fitter.linearised({made.data.axis, {{&hypothesis("torque_ripple"), {0.05, 0.0, 3.0}}}}, made.whitening);
+    SearchResult result;
+    result.whitening = made.whitening;
+    result.found.emplace_back().effect = fit.model.effects[0];
+    result.found[0].by_closed_loop = by_closed_loop;
+    keep_confirmed(made.forward, made.fitter, result, fit, silent);
+    EXPECT_EQ(result.found.size(), by_closed_loop ? 1U : 0U);
+    EXPECT_EQ(fit.model.effects.size(), result.found.size());
+  }
 }
 
 TEST(Missed, ANameThatTheClosedLoopDoesAsWellWithoutIsTakenBackAndTheRightOneStays) {

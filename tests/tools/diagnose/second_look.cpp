@@ -41,6 +41,7 @@ std::vector<std::string_view> named_again(const std::vector<plant::EffectSetting
   EXPECT_EQ(fit.model.effects.size(), found.found.size());
   std::vector<std::string_view> names;
   for (const auto& one : found.found) names.push_back(one.effect.hypothesis->id);
+  for (const auto& one : found.found) EXPECT_LT(one.p_false_alarm, 0.06) << "three deviations, of any hypothesis";
   return names;
 }
 

@@ -17,7 +17,7 @@ constexpr Eigen::Index numbers = 3, unknowns = 5;
 
 /// A run whose command is a linear map of the unknowns, and how many points it was asked for.
 struct LinearRun {
-  MatrixXd map;
+  MatrixXd map = MatrixXd();
   int asked = 0;
 
   std::vector<tools::Simulated> operator()(const MatrixXd& points) {
@@ -37,39 +37,46 @@ MatrixXd forward_differences(const VectorXd& at, double step) {
   return points;
 }
 
-class SlopesOfRandomRuns : public testing::TestWithParam<unsigned> {};
+/// Of two runs the second one's slopes are known, from some point.
+class SlopesOfRandomRuns : public testing::TestWithParam<unsigned> {
+ protected:
+  SlopesOfRandomRuns() {
+    srand(GetParam());
+    run_.map = MatrixXd::Random(20, unknowns);
+    const MatrixXd points = differences_somewhere(1e-3);
+    slopes_.learn(1, points, run_(points));
+    run_.asked = 0;
+  }
+  static MatrixXd differences_somewhere(double step) { return forward_differences(VectorXd::Random(unknowns), step); }
+  std::vector<tools::Simulated> simulated(std::size_t run, const MatrixXd& points) {
+    return slopes_.simulated(run, points, [this](const MatrixXd& asked) { return run_(asked); });
+  }
+
+  LinearRun run_;
+  Slopes slopes_{2, numbers};
+};
 
 TEST_P(SlopesOfRandomRuns, OnlyTheEffectsOwnUnknownsAreSimulatedAgainAndTheResultIsTheSame) {
-  srand(GetParam());
-  LinearRun run{MatrixXd::Random(20, unknowns)};
-  const auto simulate = [&run](const MatrixXd& points) { return run(points); };
-  Slopes slopes(2, numbers);
-  const MatrixXd first = forward_differences(VectorXd::Random(unknowns), 1e-3);
-  slopes.learn(1, first, simulate(first));
-  const MatrixXd later = forward_differences(VectorXd::Random(unknowns), -2e-3);
-  const auto truth = simulate(later);
-  run.asked = 0;
-  const auto found = slopes.simulated(1, later, simulate);
-  EXPECT_EQ(run.asked, 1 + unknowns - numbers);
+  const MatrixXd points = differences_somewhere(-2e-3);
+  const auto found = simulated(1, points);
+  EXPECT_EQ(run_.asked, 1 + unknowns - numbers);
+  const auto truth = run_(points);
   ASSERT_EQ(found.size(), truth.size());
-  for (std::size_t p = 0; p < found.size(); ++p)
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    ASSERT_EQ(found[p].torque_Nm.size(), 20U);
     for (std::size_t k = 0; k < truth[p].torque_Nm.size(); ++k)
       EXPECT_NEAR(found[p].torque_Nm[k], truth[p].torque_Nm[k], 1e-12) << p;
+  }
 }
 
-TEST_P(SlopesOfRandomRuns, WhatIsNoDifferenceOrOfAnotherRunIsSimulated) {
-  srand(GetParam());
-  LinearRun run{MatrixXd::Random(20, unknowns)};
-  const auto simulate = [&run](const MatrixXd& points) { return run(points); };
-  Slopes slopes(2, numbers);
-  const MatrixXd differences = forward_differences(VectorXd::Random(unknowns), 1e-3);
-  slopes.learn(1, differences, simulate(differences));
-  for (const auto& [place, points] :
-       {std::pair<std::size_t, MatrixXd>{0, differences}, {1, MatrixXd::Random(unknowns, unknowns + 1)}}) {
-    run.asked = 0;
-    EXPECT_EQ(slopes.simulated(place, points, simulate).size(), static_cast<std::size_t>(points.cols()));
-    EXPECT_EQ(run.asked, points.cols());
-  }
+TEST_P(SlopesOfRandomRuns, OfARunThatWasNotSeenEveryPointIsSimulated) {
+  EXPECT_EQ(simulated(0, differences_somewhere(1e-3)).size(), 1U + unknowns);
+  EXPECT_EQ(run_.asked, 1 + unknowns);
+}
+
+TEST_P(SlopesOfRandomRuns, PointsThatAreNoDifferencesAreAllSimulated) {
+  EXPECT_EQ(simulated(1, MatrixXd::Random(unknowns, unknowns + 1)).size(), 1U + unknowns);
+  EXPECT_EQ(run_.asked, 1 + unknowns);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SlopesOfRandomRuns, testing::Range(1U, 6U));

@@ -18,9 +18,9 @@ constexpr int iterations = 6;
 bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e,
                         std::vector<const Hypothesis*>& beaten) const {
   const auto* named = fit.model.effects[e].hypothesis;
-  const auto entry = std::ranges::find(found.found, named, [](const Found& one) { return one.effect.hypothesis; });
+  Found* const entry = found.of(named);
   // a nuisance only says how the channels read: no name may come of it
-  if (entry == found.found.end() || !can_be_named(fit.model.effects[e], fit.model.axis)) return false;
+  if (entry == nullptr || !can_be_named(fit.model.effects[e], fit.model.axis)) return false;
   std::vector<const Hypothesis*> asked = entry->rivals;
   for (const auto& other : hypotheses())
     if (easily_confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);

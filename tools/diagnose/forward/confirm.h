@@ -22,8 +22,8 @@ struct Confirmation {
                                    const Candidate& model, std::size_t effect);
 
 /// Drops what the second engine does not bear out. Numbers of the model are told by how far the others would have to move.
-/// @param beyond_doubt is not asked: the closed loop itself has named it
+/// Nor is asked what the closed loop itself has named.
 void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
-                    const std::function<void(std::string_view)>& progress, const Hypothesis* beyond_doubt = nullptr);
+                    const std::function<void(std::string_view)>& progress);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -31,8 +31,8 @@ std::optional<Lacking> least_missed(const ForwardModel& forward, const Fitter& f
   std::optional<Lacking> least;
   for (std::size_t e = 0; e < fit.model.effects.size(); ++e) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
-    const auto named = std::ranges::find(found.found, hypothesis, [](const Found& one) { return one.effect.hypothesis; });
-    if (named == found.found.end() || !worth_naming(fit.model.effects[e])) continue;
+    auto* named = found.of(hypothesis);
+    if (named == nullptr || !worth_naming(fit.model.effects[e])) continue;
     const Fit less = fitter.fit(without(fit.model, e), found.whitening, iterations);
     Ruling rest = rule_beside(settled, less, forward, fitter, SlopesOf::before);
     if (settled.value - rest.value < in_question_nats) rest = rule_again(rest, forward, fitter, SlopesOf::anew);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "tools/diagnose/forward/extended_axis.h"
@@ -49,6 +51,11 @@ std::vector<Score> questions(const Screen& left, const Candidate& model) {
   return asked;
 }
 
+/// Of as many deviations in any of the hypotheses: what the closed loop names, it vouches for.
+double chance_of(double deviations) {
+  return std::min(1.0, 0.5 * std::erfc(deviations / std::numbers::sqrt2) * static_cast<double>(hypotheses().size()));
+}
+
 class SecondLook {
  public:
   SecondLook(const ForwardModel& forward, const Fitter& fitter, const std::function<void(std::string_view)>& progress)
@@ -77,7 +84,7 @@ class SecondLook {
                            .gain = gain,
                            .share = std::clamp(gain / std::max(1.0, better->touched), 0.0, 1.0),
                            .strength = 0.0,
-                           .p_false_alarm = found.last.p_false_alarm(better->standard),
+                           .p_false_alarm = chance_of(compared(best->likelihood, settled->likelihood).deviations),
                            .rivals = {},
                            .held_everywhere = false,
                            .by_closed_loop = true});

@@ -75,11 +75,6 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
   // right names of three challenge sets change some channel by 0.38 and more; a breakaway that was none, by 0.012
   constexpr double least_change = 0.03, doubtless_change = 0.05, least_deviations = 3.0, least_share = 0.2;
   constexpr double surely_missed_nats = 300.0;
-  const auto surely_missed = [&found](const Hypothesis* hypothesis) {
-    return std::ranges::any_of(found.found, [&](const Found& one) {
-      return one.effect.hypothesis == hypothesis && one.missed_nats > surely_missed_nats;
-    });
-  };
   Index from = fit.base_count();
   Nrmse with = forward.nrmse(extended(fit.model));
   for (std::size_t e = 0; e < fit.model.effects.size();) {
@@ -94,7 +89,8 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
     const bool agreed = share_of_size(fit.model.effects[e], by_inverse_model) > least_share;
     const double least = told ? least_change : doubtless_change;
-    const bool sure = surely_missed(hypothesis);
+    const auto* named = found.of(hypothesis);
+    const bool sure = named != nullptr && named->missed_nats > surely_missed_nats;
     bool has_size =
         possible(fit.model.effects[e], fit.model.axis) && (sure || (agreed && largest_change(with, less) > least));
     if (has_size && !told && !sure) {  // the other numbers may take up what it does
