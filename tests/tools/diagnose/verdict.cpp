@@ -1,0 +1,57 @@
+// What is too much to be left over: the same structure weighs more where nothing is named.
+
+#include "tools/diagnose/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/made_case.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+/// How much of the remainder of runs beside a spring of so many newtons per metre repeats, and whether that is `unknown`.
+struct Weighed {
+  Structure structure;
+  bool with_nothing_named = false, with_a_name = false;
+};
+
+Weighed weighed(double spring_N_per_m) {
+  auto truth = plant::source_axis();
+  if (spring_N_per_m > 0.0) truth.effects.push_back(tests::effect("cable_spring", {{"stiffness_N_per_m", spring_N_per_m}}));
+  const tools::Case data = tests::short_case(truth, plant::source_axis());
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Fitter fitter(model, data.axis);
+  const Candidate nothing{data.axis, {}}, name{data.axis, {{&hypothesis("cogging"), {1e-4, 0.0, 8.0}}}};
+  SearchResult found;
+  found.recalibrated.residual = model.residual(data.axis, {});
+  const auto unknown = [&](const Candidate& final) {
+    return beyond_the_catalogue(fitter, found, final, [](std::string_view) {});
+  };
+  return {fitter.structure().remaining(found.recalibrated.residual), unknown(nothing), unknown(name)};
+}
+
+TEST(BeyondTheCatalogue, ALittleStructureIsUnknownWhereNothingIsNamed) {
+  const auto little = weighed(50.0);
+  ASSERT_GT(little.structure.structured_N(), 0.08);
+  ASSERT_LT(little.structure.structured_N(), 0.3);
+  EXPECT_TRUE(little.with_nothing_named);
+  EXPECT_FALSE(little.with_a_name);
+}
+
+TEST(BeyondTheCatalogue, MuchStructureIsUnknownBesideANameToo) {
+  const auto much = weighed(500.0);
+  ASSERT_GT(much.structure.structured_N(), 0.5);
+  EXPECT_TRUE(much.with_nothing_named);
+  EXPECT_TRUE(much.with_a_name);
+}
+
+TEST(BeyondTheCatalogue, NothingHiddenIsNotUnknown) {
+  const auto none = weighed(0.0);
+  EXPECT_FALSE(none.with_nothing_named);
+  EXPECT_FALSE(none.with_a_name);
+}
+
+}  // namespace
+}  // namespace feedtwin
