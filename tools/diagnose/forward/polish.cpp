@@ -12,7 +12,12 @@ namespace {
 /// In units of an effect's scale: wide, but where only a combination of its numbers tells, the others stay in sight of it.
 constexpr double hardly_a_prior = 100.0;
 
-/// The base parameters, then the effects' own that are not fixed.
+/// Does the closed loop move it?
+bool moved(const WorkingParameter& p) {
+  return p.kind != Kind::fixed && !p.by_readings;
+}
+
+/// The base parameters, then the effects' own that the closed loop moves.
 std::vector<FitParameter> unknowns_of(const Fitter& fitter, const Candidate& start) {
   std::vector<FitParameter> unknowns;
   const Vector deviations = fitter.deviations(start.axis);
@@ -31,7 +36,7 @@ std::vector<FitParameter> unknowns_of(const Fitter& fitter, const Candidate& sta
   for (const auto& effect : start.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j) {
       const auto& p = effect.hypothesis->parameters[j];
-      if (p.kind == Kind::fixed) continue;
+      if (!moved(p)) continue;
       const bool by_factor = p.kind == Kind::simulated;  // a logarithm
       unknowns.push_back({.key = std::string(effect.hypothesis->id) + "." + std::string(p.name),
                           .nominal = effect.q[j],
@@ -50,7 +55,7 @@ Candidate at(const Fitter& fitter, const Candidate& start, const Eigen::Ref<cons
   for (const auto& p : fitter.base()) set_value(p, candidate.axis, point[next++]);
   for (auto& effect : candidate.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j)
-      if (effect.hypothesis->parameters[j].kind != Kind::fixed) effect.q[j] = point[next++];
+      if (moved(effect.hypothesis->parameters[j])) effect.q[j] = point[next++];
   return candidate;
 }
 
@@ -64,18 +69,21 @@ void add_step_error(const Fitter& fitter, Polished& polished) {
       }
 }
 
-/// The unknowns that a Fit has too.
-std::vector<Index> shared_unknowns(const Fitter& fitter, const Candidate& model) {
-  std::vector<Index> shared(fitter.base().size());
-  std::iota(shared.begin(), shared.end(), Index{0});
-  Index next = static_cast<Index>(shared.size());
+/// Of the unknowns that a Fit has: what a polish says of them, zero where it does not move them.
+Eigen::MatrixXd as_of_fit(const Eigen::MatrixXd& polished, const Fitter& fitter, const Candidate& model) {
+  std::vector<Index> own(fitter.base().size());  // where a Fit has them
+  std::iota(own.begin(), own.end(), Index{0});
+  std::vector<Index> shared = own;  // where the polish has them
+  Index at = static_cast<Index>(own.size()), next = at;
   for (const auto& effect : model.effects)
     for (const auto& p : effect.hypothesis->parameters) {
-      if (p.kind == Kind::fixed) continue;
-      if (fitted(p.kind)) shared.push_back(next);
-      ++next;
+      if (fitted(p.kind) && moved(p)) own.push_back(at), shared.push_back(next);
+      at += fitted(p.kind);
+      next += moved(p);
     }
-  return shared;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(at, at);
+  covariance(own, own) = polished(shared, shared);
+  return covariance;
 }
 
 }  // namespace
@@ -106,8 +114,8 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   output_error.least_fall = settings.least_fall_nats;
   const auto fit = fit_output_error(forward.runs(), unknowns, simulator, output_error);
   Polished polished{at(fitter, start, fit.point()), {}, fit.cost};
-  const auto shared = shared_unknowns(fitter, start);
-  polished.covariance = fit.covariance.size() > 0 ? Eigen::MatrixXd(fit.covariance(shared, shared)) : fit.covariance;
+  if (fit.covariance.size() == 0) return polished;
+  polished.covariance = as_of_fit(fit.covariance, fitter, start);
   for (std::size_t i = 0; i < fitter.base().size(); ++i) {
     const auto place = static_cast<Index>(i);
     polished.covariance.row(place) /= fitter.tolerance(i);

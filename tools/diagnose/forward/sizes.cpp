@@ -58,9 +58,10 @@ Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance, const E
   Index at = base_count;
   for (const auto& effect : model.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j) {
-      if (!fitted(effect.hypothesis->parameters[j].kind)) continue;
+      const auto& p = effect.hypothesis->parameters[j];
+      if (!fitted(p.kind)) continue;
       const double variance = by_inverse_model(at, at);
-      if (covariance(at, at) > std::max(variance, std::pow(untold * effect.q[j], 2))) {
+      if (p.by_readings || covariance(at, at) > std::max(variance, std::pow(untold * effect.q[j], 2))) {
         covariance.row(at).setZero();
         covariance.col(at).setZero();
         covariance(at, at) = variance + std::pow(step_error * effect.q[j], 2);

@@ -27,7 +27,7 @@ Hypothesis regeneration_clipped() {
           .component = "power",
           .channel = "power_W",
           .where = Where::time,
-          .parameters = {{"share", Kind::amplitude, 1e-2, 0.0, 1.2}},
+          .parameters = {{"share", Kind::amplitude, 1e-2, 0.0, 1.0}},
           .shapes = {{}},
           .apply = apply,
           .named = named,

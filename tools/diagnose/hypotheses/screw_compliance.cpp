@@ -37,7 +37,7 @@ Hypothesis screw_compliance() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::time,
-          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1.2e-7}},
+          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1.2e-7, true}},
           .shapes = {{}},
           .apply = apply,
           .named = named,
