@@ -9,6 +9,7 @@
 #include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/likelihood.h"
 #include "tools/diagnose/forward/missed.h"
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
@@ -110,7 +111,11 @@ class Diagnosing {
     auto ways = ways_of(polished.model);
     const std::size_t of_polished = ways.size();
     for (auto& unpolished : ways_of(fit_.model)) ways.push_back(std::move(unpolished));
-    if (closest(forward_, ways) >= of_polished) return;
+    // as the runs go, or beyond the scatter of their stretches likelier: a few rows of a jump may outweigh them in the sum
+    constexpr double surely_deviations = 3.0;
+    const auto likelier =
+        compared(likelihood(forward_, extended(polished.model)), likelihood(forward_, extended(fit_.model)));
+    if (closest(forward_, ways) >= of_polished && likelier.deviations < surely_deviations) return;
     fit_.model = polished.model;
     covariance_ = with_what_only_inverse_tells(polished.covariance, covariance_, polished.model, fit_.base_count());
     const std::size_t named = fit_.model.effects.size();

@@ -109,6 +109,17 @@ TEST(Contest, WhoIsBehindAlsoGoesOnFromTheOthersNumbersHoweverFarBehind) {
   EXPECT_GT(behind.value, ahead.value);
 }
 
+TEST(Ruling, OneEffectMoreThatStartsAstrayStartsFromNoneInstead) {
+  const Cogged made;
+  const Ruling before = rule(made.fitter.linearised(made.nominal, made.whitening), made.forward, made.fitter);
+  // more than the motor can turn against
+  const Fit astray = made.fitter.linearised({made.data.axis, {{&hypothesis("cogging"), {3.0, 3.0, 8.0}}}}, made.whitening);
+  EXPECT_LT(rule_beside(before, astray, made.forward, made.fitter, SlopesOf::anew).value, before.value);
+  const Ruling found = rule_with_one_more(before, astray, made.forward, made.fitter);
+  EXPECT_GT(found.value, before.value + 100.0);
+  EXPECT_NEAR(found.model.effects[0].q[0], 0.01, 1e-3);
+}
+
 TEST(Confirm, WhatTheClosedLoopItselfHasNamedIsNotAsked) {
   const Cogged made;
   for (const bool by_closed_loop : {false, true}) {

@@ -8,9 +8,6 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// What an engine's own time step leaves of a number, measured where the truth is known (practice cases: 0.02 to 0.06 %).
-inline constexpr double step_error = 5e-4;
-
 struct Polished {
   Candidate model;
   /// Of the base parameters (in tolerances) and then the effects' working parameters that are not fixed: as Fit has it.

@@ -27,6 +27,8 @@ enum class SlopesOf { before, anew };
 /// Another explanation, from its own numbers or from those of one that was polished before, whichever are likelier.
 [[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
                                  SlopesOf slopes);
+/// One effect more, the last of the fit's. Where that goes astray, since without any of it the runs are likelier, from none.
+[[nodiscard]] Ruling rule_with_one_more(const Ruling& before, Fit fit, const ForwardModel& forward, const Fitter& fitter);
 /// The one that is behind is polished further, from its own numbers or the other's, as long as that helps and it is not
 /// hopelessly behind: what decides must not be who was polished more.
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter);

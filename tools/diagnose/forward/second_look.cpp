@@ -18,6 +18,8 @@ constexpr double least_gain = 50.0;                     // by the inverse model
 constexpr double beyond_noise = 2.0;                    // a channel that is worth the question
 constexpr double least_ratio = 1.5, least_share = 0.5;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
+// a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
+constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
 
 /// How a model brings a channel closer, of those that are off beyond noise.
 struct Closer {
@@ -107,16 +109,19 @@ class SecondLook {
       if (score.hypothesis->closed_loop_start.empty()) return std::nullopt;
       effect.q = score.hypothesis->closed_loop_start;
     }
-    Ruling one = rule_beside(now, with, forward_, fitter_, SlopesOf::anew);
+    const Ruling one = rule_with_one_more(now, std::move(with), forward_, fitter_);
     if (!can_be_named(one.model.effects.back(), one.model.axis)) return std::nullopt;
     const auto seen = closer(errors_, forward_.nrmse(extended(one.model)), floor_, score.hypothesis->only_readings);
     const auto difference = compared(one.likelihood, now.likelihood);
     progress_(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %",
                           score.hypothesis->id, one.value - now.value, difference.deviations,
                           seen.channel.empty() ? "no channel" : seen.channel, seen.ratio, 100.0 * seen.share));
-    const bool is_answer = seen.ratio >= least_ratio && seen.share >= least_share && one.value - now.value >= least_nats &&
-                           difference.deviations >= least_deviations;
-    return is_answer ? std::optional(std::move(one)) : std::nullopt;
+    const double nats = one.value - now.value;
+    const bool closer_by_far = seen.ratio >= least_ratio && seen.share >= least_share && nats >= least_nats &&
+                               difference.deviations >= least_deviations;
+    const bool surely_read = score.hypothesis->only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
+                             difference.deviations >= sure_deviations;
+    return closer_by_far || surely_read ? std::optional(one) : std::nullopt;
   }
 
   const ForwardModel& forward_;

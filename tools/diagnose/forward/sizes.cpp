@@ -9,6 +9,7 @@
 #include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/polish.h"
+#include "tools/diagnose/forward/unknowns.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -58,13 +59,12 @@ Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance, const E
   Index at = base_count;
   for (const auto& effect : model.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j) {
-      const auto& p = effect.hypothesis->parameters[j];
-      if (!fitted(p.kind)) continue;
-      const double variance = by_inverse_model(at, at);
-      if (p.by_readings || covariance(at, at) > std::max(variance, std::pow(untold * effect.q[j], 2))) {
+      if (!fitted(effect.hypothesis->parameters[j].kind)) continue;
+      const double known = covariance(at, at), least = std::max(by_inverse_model(at, at), std::pow(untold * effect.q[j], 2));
+      if (known == 0.0 || known > least) {
         covariance.row(at).setZero();
         covariance.col(at).setZero();
-        covariance(at, at) = variance + std::pow(step_error * effect.q[j], 2);
+        covariance(at, at) = by_inverse_model(at, at) + std::pow(step_error * effect.q[j], 2);
       }
       ++at;
     }

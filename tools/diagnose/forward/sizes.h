@@ -9,7 +9,8 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// The closed loop's covariance; the inverse model's own where a number moves nothing there by small steps: whole counts.
+/// The closed loop's covariance; the inverse model's own where a number moves nothing there by small steps, whole counts,
+/// or is none of the closed loop's unknowns.
 [[nodiscard]] Eigen::MatrixXd with_what_only_inverse_tells(Eigen::MatrixXd covariance,
                                                            const Eigen::MatrixXd& by_inverse_model, const Candidate& model,
                                                            Index base_count);

@@ -1,0 +1,91 @@
+#include "tools/diagnose/forward/unknowns.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+/// In units of an effect's scale: wide, but where only a combination of its numbers tells, the others stay in sight of it.
+constexpr double hardly_a_prior = 100.0;
+
+bool moved(const WorkingParameter& p) {
+  return p.kind != Kind::fixed && !p.by_readings;
+}
+
+FitParameter of_nominal(const Fitter& fitter, std::size_t i, double now, double believed) {
+  const auto& p = fitter.base()[i];
+  const double nominal = value_of(p, fitter.nominal()), linear = (now - nominal) / fitter.tolerance(i);
+  return {.key = std::string(p.entry->key),
+          .nominal = nominal,
+          .lowest = p.entry->lowest,
+          .highest = p.entry->highest,
+          .scale = fitter.tolerance(i),
+          .prior = std::abs(believed) > 1.0 ? std::max(1.0, linear / believed) : 1.0,
+          .start = now};
+}
+
+FitParameter of_effect(const Active& effect, std::size_t j) {
+  const auto& p = effect.hypothesis->parameters[j];
+  const bool by_factor = p.kind == Kind::simulated;  // a logarithm
+  return {.key = std::string(effect.hypothesis->id) + "." + std::string(p.name),
+          .nominal = effect.q[j],
+          .lowest = p.lowest,
+          .highest = p.highest,
+          .scale = by_factor ? 1.0 : std::max(0.3 * std::abs(effect.q[j]), 10.0 * p.step),
+          .prior = by_factor ? 1.0 : hardly_a_prior,
+          .start = {}};
+}
+
+}  // namespace
+
+Unknowns::Unknowns(const Fitter& fitter, const Candidate& start) : fitter_(fitter), start_(start) {}
+
+std::vector<FitParameter> Unknowns::parameters() const {
+  std::vector<FitParameter> all;
+  const Vector deviations = fitter_.deviations(start_.axis);
+  for (std::size_t i = 0; i < fitter_.base().size(); ++i)
+    all.push_back(of_nominal(fitter_, i, value_of(fitter_.base()[i], start_.axis), deviations[static_cast<Index>(i)]));
+  for (const auto& effect : start_.effects)
+    for (std::size_t j = 0; j < effect.q.size(); ++j)
+      if (moved(effect.hypothesis->parameters[j])) all.push_back(of_effect(effect, j));
+  return all;
+}
+
+Candidate Unknowns::at(const Eigen::Ref<const Eigen::VectorXd>& point) const {
+  Candidate candidate = start_;
+  Index next = 0;
+  for (const auto& p : fitter_.base()) set_value(p, candidate.axis, point[next++]);
+  for (auto& effect : candidate.effects)
+    for (std::size_t j = 0; j < effect.q.size(); ++j)
+      if (moved(effect.hypothesis->parameters[j])) effect.q[j] = point[next++];
+  return candidate;
+}
+
+Eigen::MatrixXd Unknowns::as_of_fit(const Eigen::MatrixXd& covariance) const {
+  std::vector<Index> here, there;   // of those that both have
+  std::vector<double> unit, error;  // of each of these: of a Fit, and of the engine
+  for (std::size_t i = 0; i < fitter_.base().size(); ++i) {
+    here.push_back(static_cast<Index>(i)), there.push_back(static_cast<Index>(i));
+    unit.push_back(fitter_.tolerance(i)), error.push_back(0.0);
+  }
+  Index own = static_cast<Index>(here.size()), fits = own;
+  for (const auto& effect : start_.effects)
+    for (std::size_t j = 0; j < effect.q.size(); ++j) {
+      const auto& p = effect.hypothesis->parameters[j];
+      if (fitted(p.kind) && moved(p)) {
+        here.push_back(own), there.push_back(fits);
+        unit.push_back(1.0), error.push_back(step_error * effect.q[j]);
+      }
+      own += moved(p);
+      fits += fitted(p.kind);
+    }
+  Eigen::MatrixXd of_fit = Eigen::MatrixXd::Zero(fits, fits);
+  for (std::size_t i = 0; i < here.size(); ++i)
+    for (std::size_t j = 0; j < here.size(); ++j)
+      of_fit(there[i], there[j]) = covariance(here[i], here[j]) / (unit[i] * unit[j]);
+  for (std::size_t i = 0; i < here.size(); ++i) of_fit(there[i], there[i]) += error[i] * error[i];
+  return of_fit;
+}
+
+}  // namespace feedtwin::tools::diagnosis
