@@ -59,9 +59,8 @@ struct WorkingParameter {
   Kind kind = Kind::amplitude;
   double step = 1e-3;  ///< for differences: small against any value that matters
   double lowest = -1e30, highest = 1e30;
-  /// Only what was recorded tells it: along a simulated motion, whose jerks are not the recorded ones, it comes out too
-  /// small.
-  bool by_readings = false;
+  /// Where the force is recorded that tells it: along a simulated motion, whose jerks are others, it comes out too small.
+  bool by_force_sensor = false;
 };
 
 /// A parameter as it is reported and as an axis file holds it.

@@ -9,10 +9,6 @@ namespace {
 /// In units of an effect's scale: wide, but where only a combination of its numbers tells, the others stay in sight of it.
 constexpr double hardly_a_prior = 100.0;
 
-bool moved(const WorkingParameter& p) {
-  return p.kind != Kind::fixed && !p.by_readings;
-}
-
 FitParameter of_nominal(const Fitter& fitter, std::size_t i, double now, double believed) {
   const auto& p = fitter.base()[i];
   const double nominal = value_of(p, fitter.nominal()), linear = (now - nominal) / fitter.tolerance(i);
@@ -39,7 +35,12 @@ FitParameter of_effect(const Active& effect, std::size_t j) {
 
 }  // namespace
 
-Unknowns::Unknowns(const Fitter& fitter, const Candidate& start) : fitter_(fitter), start_(start) {}
+Unknowns::Unknowns(const Fitter& fitter, const Candidate& start)
+    : fitter_(fitter), start_(start), force_recorded_(fitter.model().tracks().front().force_sensor_N.size() > 0) {}
+
+bool Unknowns::moves(const WorkingParameter& p) const {
+  return p.kind != Kind::fixed && !(p.by_force_sensor && force_recorded_);
+}
 
 std::vector<FitParameter> Unknowns::parameters() const {
   std::vector<FitParameter> all;
@@ -48,7 +49,7 @@ std::vector<FitParameter> Unknowns::parameters() const {
     all.push_back(of_nominal(fitter_, i, value_of(fitter_.base()[i], start_.axis), deviations[static_cast<Index>(i)]));
   for (const auto& effect : start_.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j)
-      if (moved(effect.hypothesis->parameters[j])) all.push_back(of_effect(effect, j));
+      if (moves(effect.hypothesis->parameters[j])) all.push_back(of_effect(effect, j));
   return all;
 }
 
@@ -58,7 +59,7 @@ Candidate Unknowns::at(const Eigen::Ref<const Eigen::VectorXd>& point) const {
   for (const auto& p : fitter_.base()) set_value(p, candidate.axis, point[next++]);
   for (auto& effect : candidate.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j)
-      if (moved(effect.hypothesis->parameters[j])) effect.q[j] = point[next++];
+      if (moves(effect.hypothesis->parameters[j])) effect.q[j] = point[next++];
   return candidate;
 }
 
@@ -73,11 +74,11 @@ Eigen::MatrixXd Unknowns::as_of_fit(const Eigen::MatrixXd& covariance) const {
   for (const auto& effect : start_.effects)
     for (std::size_t j = 0; j < effect.q.size(); ++j) {
       const auto& p = effect.hypothesis->parameters[j];
-      if (fitted(p.kind) && moved(p)) {
+      if (fitted(p.kind) && moves(p)) {
         here.push_back(own), there.push_back(fits);
         unit.push_back(1.0), error.push_back(step_error * effect.q[j]);
       }
-      own += moved(p);
+      own += moves(p);
       fits += fitted(p.kind);
     }
   Eigen::MatrixXd of_fit = Eigen::MatrixXd::Zero(fits, fits);
