@@ -92,10 +92,9 @@ AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noex
 }
 
 Resolution EffectChain::at_least(Resolution resolution) const noexcept {
-  constexpr int waving = 3;    // 0.1 m/s and twelve periods a revolution: half a radian a sub-step
-  constexpr int swinging = 6;  // a table that swings at 500 Hz against the screw
+  constexpr int waving = 3;  // 0.1 m/s and twelve periods a revolution: half a radian a sub-step
   const bool quiet = !coupling_ && screw_loads_.empty() && table_loads_.empty() && advancing_.empty();
-  const int least = coupling_ ? swinging : quiet ? 1 : waving;
+  const int least = coupling_ ? resolution.swinging : quiet ? 1 : waving;
   resolution.sliding = std::max(resolution.sliding, least);
   resolution.settling = std::max(resolution.settling, least);
   resolution.reversing = std::max(resolution.reversing, 2 * least);

@@ -134,6 +134,26 @@ TEST(ForwardModel, PolishingMovesTheComplianceWhereNoForceIsRecorded) {
   EXPECT_NEAR(polished.model.effects[1].q[0], amplitude_Nm, 0.01 * amplitude_Nm);
 }
 
+// Beyond 100 N/um the swing is no finding and takes half the time; the command hardly knows.
+TEST(ForwardModel, AScrewTooStiffToBeAFindingIsSimulatedInLongerSubSteps) {
+  const Case data = made_case(0.0);
+  const ForwardModel forward(data.fit, data);
+  const auto& run = forward.runs().front();
+  for (const double stiffness_N_per_m : {5e7, 2e8}) {
+    const auto axis = extended({data.axis, {{&hypothesis("screw_compliance"), {1.0 / stiffness_N_per_m}}}}).common;
+    plant::FeedAxis fine(tools::without_stops(axis));
+    const auto expected = tools::simulate_closed_loop(run, fine, 0.0, false).torque_Nm;
+    const auto found = forward.simulate(run, {axis}).front().torque_Nm;
+    double difference = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      difference += std::pow(found[i] - expected[i], 2);
+      square += expected[i] * expected[i];
+    }
+    EXPECT_EQ(difference == 0.0, stiffness_N_per_m < 1e8);
+    EXPECT_LT(std::sqrt(difference / square), 1e-3);
+  }
+}
+
 TEST(ForwardModel, ConfirmsWhatIsThereAndNotWhatIsNot) {
   for (const double there_Nm : {amplitude_Nm, 0.0}) {
     const Case data = made_case(there_Nm);
