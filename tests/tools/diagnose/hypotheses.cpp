@@ -54,7 +54,7 @@ const std::map<std::string_view, Trial>& trials() {
       {"encoder_eccentricity", {{{"amplitude_m", 6e-6}, {"cycles_per_rev", 2.0}, {"phase_rad", 0.7}}, {0, 0, 2}}},
       {"frictional_lag", {{{"time_constant_s", 0.012}}, {0}, 0.07, false}},
       {"local_friction", {{{"height_N", 15.0}, {"centre_m", 0.004}, {"half_width_m", 0.002}}, {0, 0.0038, 0.002}, 0.08}},
-      {"dwell_breakaway", {{{"relative_rise", 0.4}, {"time_constant_s", 0.06}}, {0, 0.05}, 0.25}},
+      {"dwell_breakaway", {{{"relative_rise", 0.4}, {"time_constant_s", 0.06}}, {0, 20.0}, 0.25}},
       {"regeneration_clipped", {{{"share", 1.0}}, {0}}},
       {"sensor_gain", {{{"torque_sensor_gain", 1.1}, {"force_sensor_gain", 1.0}}, {0, 0, 0}, 0.03, true, true}},
       {"channel_skew", {{{"torque_sensor_delay_s", 3e-3}, {"force_sensor_delay_s", 2e-3}}, {0, 0}}},

@@ -16,13 +16,13 @@ namespace {
 /// before.
 constexpr StandInSettings following{.bandwidth_rad_per_s = 75.0, .damping_ratio = 0.9, .filter_rad_per_s = 400.0};
 
-/// A screw that is too stiff to be a finding swings far beyond what a recording shows: as a spring that only yields, it
-/// costs half.
+/// A screw that is too stiff to be a finding swings far beyond what a recording shows: one that only yields costs half.
 plant::Resolution resolution_of(const plant::AxisParameters& axis) {
-  constexpr double stiff_N_per_m = 1e8;
   plant::Resolution resolution = plant::one_count;
   const auto spring = std::ranges::find(axis.effects, "screw_compliance", &plant::EffectSetting::id);
-  if (spring != axis.effects.end() && spring->values.front() > stiff_N_per_m) resolution.swinging = 3;
+  if (spring == axis.effects.end()) return resolution;
+  const Active yielding{&hypothesis(spring->id), {1.0 / spring->values.front()}};
+  if (!worth_naming(yielding)) resolution.swinging = 3;
   return resolution;
 }
 

@@ -1,4 +1,5 @@
-// Breakaway that rises with the dwell: F_C and F_S times 1 + r (1 - exp(-age / T)), d(age)/dt = 1 - |v| age / D.
+// Breakaway that rises with the dwell: F_C and F_S times 1 + r (1 - exp(-age / T)), d(age)/dt = 1 - |v| age / D. It works
+// with the first slope r / T, which short rests tell alone, and with the rate 1 / T.
 
 #include <cmath>
 
@@ -10,6 +11,12 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double memory_distance_m = 2e-5, largest_rise = 2.0;
+constexpr double slowest_per_s = 0.2;  // slower, and rests of a second or two show a straight line
+
+/// After so long a rest.
+double rise_after(double rest_s, std::span<const double> q) {
+  return q[0] / q[1] * (1.0 - plant::exp_of_minus(rest_s * q[1]));
+}
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
@@ -19,18 +26,20 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
     const double worn = std::abs(track.velocity_m_per_s[k]) * track.sample_s / memory_distance_m,
                  left = plant::exp_of_minus(worn);
     age_s = age_s * left + track.sample_s * (worn > 1e-3 ? (1.0 - left) / worn : 1.0 - worn * (0.5 - worn / 6.0));
-    factor[k] = 1.0 + q[0] * (1.0 - plant::exp_of_minus(age_s / q[1]));
+    factor[k] = 1.0 + rise_after(age_s, q);
   }
   scale(sum.screw_sliding, factor);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_rise", q[0]}, {"time_constant_s", q[1]}, {"memory_distance_m", memory_distance_m}};
+  return {{"relative_rise", q[0] / q[1]}, {"time_constant_s", 1.0 / q[1]}, {"memory_distance_m", memory_distance_m}};
 }
 
-/// A rise that runs to its bound is no rise with the rest: friction about reversals that other laws simplify.
+/// A rise that runs to its bound, or hardly shows after a second, is no rise with the rest: friction about reversals that
+/// other laws simplify.
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.03 && q[0] < 0.95 * largest_rise;
+  const double rise = q[0] / q[1];
+  return rise > 0.03 && rise < 0.95 * largest_rise && rise_after(1.0, q) > 0.01;
 }
 
 }  // namespace
@@ -40,9 +49,9 @@ Hypothesis dwell_breakaway() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::reversal,
-          .parameters = {{"relative_rise", Kind::amplitude, 1e-2, 0.0, largest_rise},
-                         {"time_constant_s", Kind::shape, 1e-2, 0.01, 20.0}},
-          .shapes = {{0.05}, {0.3}, {2.0}},
+          .parameters = {{"slope_per_s", Kind::amplitude, 1e-2, 0.0, 100.0},
+                         {"rate_per_s", Kind::shape, 1e-2, slowest_per_s, 100.0}},
+          .shapes = {{20.0}, {3.0}, {0.5}},
           .apply = apply,
           .named = named,
           .admissible = possible,
