@@ -19,6 +19,7 @@
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/reported.h"
+#include "tools/diagnose/screen.h"
 #include "tools/diagnose/sentence.h"
 #include "tools/diagnose/unknown.h"
 #include "tools/diagnose/verdict.h"
@@ -68,12 +69,11 @@ class Diagnosing {
   void explain() {
     found_ = search(fitter_, Bar{}, progress_);
     fit_ = found_.final;
-    forward_.learn_meter(extended(fit_.model));
-    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
     const auto names_before = fit_.model.effects;
+    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    const auto names_confirmed = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_);
-    const bool same = std::ranges::equal(names_before, fit_.model.effects, {}, &Active::hypothesis, &Active::hypothesis);
-    if (!same) ask_the_others_again();
+    if (!same_names(names_confirmed)) ask_the_others_again();
     // a name that every unseen fold bears out stays, whatever else is left over
     const bool certain = std::ranges::any_of(found_.found, [](const Found& one) {
       return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
@@ -81,10 +81,24 @@ class Diagnosing {
     unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_) && !certain;
     if (unknown_) return;
     forward_.learn_meter_noise(extended(as_settled()));
+    if (!same_names(names_before)) found_.last = screen(fitter_, fit_, found_.whitening);
+    look_again_at_the_runs();
+    if (!settled_) return;
+    const auto names_then = fit_.model.effects;
+    keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
+    if (same_names(names_then)) return;
+    found_.last = screen(fitter_, fit_, found_.whitening);  // what went may have hidden another
+    look_again_at_the_runs();
+  }
+
+  [[nodiscard]] bool same_names(const std::vector<Active>& as) const {
+    return std::ranges::equal(as, fit_.model.effects, {}, &Active::hypothesis, &Active::hypothesis);
+  }
+
+  void look_again_at_the_runs() {
     const std::size_t seen_before = found_.found.size();
     settled_ = look_again(forward_, fitter_, found_, fit_, settled_, progress_);
     if (found_.found.size() > seen_before) ask_the_others_again();
-    if (settled_) keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
   }
 
   /// With the numbers as the closed loop has them, where it was asked.

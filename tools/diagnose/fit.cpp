@@ -20,7 +20,11 @@ bool has(const Candidate& model, const Hypothesis& hypothesis) {
 }
 
 Fitter::Fitter(const InverseModel& model, const plant::AxisParameters& nominal)
-    : model_(model), nominal_(nominal), base_(base_parameters(model.power_recorded())), structure_(model) {}
+    : model_(model),
+      nominal_(nominal),
+      base_(base_parameters(model.power_recorded())),
+      structure_(model),
+      power_structure_(model) {}
 
 double Fitter::tolerance(std::size_t parameter) const {
   const auto& p = base_[parameter];
@@ -194,7 +198,7 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
 }
 
 Whitening Fitter::colour_of(const Vector& residual) const {
-  const Vector rest = residual - structure_.part_of(residual);
+  const Vector rest = residual - structure_.part_of(residual) - power_structure_.part_of(residual);
   return Whitening::estimate(model_, rest - sharp_lines(model_, rest));
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/diagnose/base_parameters.h"
+#include "tools/diagnose/power_structure.h"
 #include "tools/diagnose/structure.h"
 #include "tools/diagnose/whitening.h"
 
@@ -72,6 +73,7 @@ class Fitter {
   plant::AxisParameters nominal_;
   std::vector<BaseParameter> base_;
   RepeatableStructure structure_;
+  PowerStructure power_structure_;
 };
 
 }  // namespace feedtwin::tools::diagnosis

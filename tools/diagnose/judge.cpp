@@ -66,7 +66,7 @@ double prior_part(const Fit& fit) {
 }  // namespace
 
 std::vector<double> strengths(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
-                              const Bar& bar) {
+                              const Bar& bar, const std::vector<bool>& only) {
   std::vector<double> by_equation;
   for (std::size_t e = 0; e < model.equations().size(); ++e) {
     const auto& equation = model.equations()[e];
@@ -74,6 +74,7 @@ std::vector<double> strengths(const InverseModel& model, const Fit& with, const 
     for (const auto& s : model.segments())
       for (Index k = s.start; s.equation == e && k < s.start + s.size; ++k) {
         if (!model.settled(k) && !about_reversals) continue;
+        if (!only.empty() && !only[static_cast<std::size_t>(k)]) continue;
         moved += std::pow(without.residual[k] - with.residual[k], 2);
         left += with.residual[k] * with.residual[k];
         count += 1.0;
@@ -82,6 +83,19 @@ std::vector<double> strengths(const InverseModel& model, const Fit& with, const 
     by_equation.push_back(count > 0.0 ? std::sqrt(moved / count) / std::max(floor, std::sqrt(left / count)) : 0.0);
   }
   return by_equation;
+}
+
+std::vector<bool> rows_of(const InverseModel& model, const Fit& with, const Fit& without) {
+  constexpr double share = 0.1;
+  std::vector<double> most(model.equations().size(), 0.0);
+  const auto moved = [&](Index k) { return std::abs(without.residual[k] - with.residual[k]); };
+  for (const auto& s : model.segments())
+    for (Index k = s.start; k < s.start + s.size; ++k) most[s.equation] = std::max(most[s.equation], moved(k));
+  std::vector<bool> rows(static_cast<std::size_t>(model.rows()));
+  for (const auto& s : model.segments())
+    for (Index k = s.start; k < s.start + s.size; ++k)
+      rows[static_cast<std::size_t>(k)] = moved(k) > share * most[s.equation];
+  return rows;
 }
 
 double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals, const Bar& bar) {
@@ -100,7 +114,8 @@ Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const 
   const bool strong = v.strength > least && v.gain > needed;
   const bool impossible_otherwise = hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
                                     (v.strength > bar.absorbed_strength || v.surprise > bar.sure_surprise);
-  v.enough = strong || impossible_otherwise;
+  v.far_off = std::min(v.gain, v.surprise) > hypothesis.far_off_gain;
+  v.enough = strong || impossible_otherwise || v.far_off;
   return v;
 }
 

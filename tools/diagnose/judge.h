@@ -8,8 +8,12 @@ namespace feedtwin::tools::diagnosis {
 
 /// How much the fits differ, rms, over the rms of what the better one leaves over, for each equation. Force equations count
 /// where the axis has settled, and about reversals too where these are asked for.
+/// @param only these rows; empty: all
 [[nodiscard]] std::vector<double> strengths(const InverseModel& model, const Fit& with, const Fit& without,
-                                            bool about_reversals, const Bar& bar);
+                                            bool about_reversals, const Bar& bar, const std::vector<bool>& only = {});
+
+/// The rows where an effect acts: by a tenth of its most in that equation, or more.
+[[nodiscard]] std::vector<bool> rows_of(const InverseModel& model, const Fit& with, const Fit& without);
 
 /// The largest of them.
 [[nodiscard]] double strength(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
@@ -19,6 +23,7 @@ namespace feedtwin::tools::diagnosis {
 struct Verdict {
   double gain = 0.0, surprise = 0.0, strength = 0.0;
   bool enough = false;
+  bool far_off = false;  ///< the numbers could do it, far from nominal
 };
 
 [[nodiscard]] Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const Hypothesis& hypothesis,

@@ -1,5 +1,7 @@
 #include "tools/diagnose/screen.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
@@ -95,6 +97,17 @@ double Screen::p_false_alarm(double standard) const {
   return std::min(1.0 / (1.0 + static_cast<double>(chance.size())), 1.0 - std::exp(-std::exp(-y)));
 }
 
+std::string in_words(const Screen& screened) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(6, screened.scores.size()); ++i) {
+    const auto& score = screened.scores[i];
+    text += fmt::format("{}{} would explain {:.1f} % (gain {:.0f}, p {:.1g})", i > 0 ? ", " : "", score.hypothesis->id,
+                        100.0 * score.gain / std::max(1.0, score.touched), score.gain,
+                        std::max(1e-9, screened.p_false_alarm(score.standard)));
+  }
+  return text;
+}
+
 Active at_zero(const Score& score) {
   Active active{score.hypothesis, score.q};
   for (std::size_t i = 0; i < active.q.size(); ++i)
@@ -187,7 +200,7 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
     if (!(before.maxCoeff() > 0.0)) return;
     Eigen::MatrixXd gram = columns.transpose() * columns - on_q.transpose() * on_q;
     for (Index c = 0; c < count; ++c)
-      if (!(gram(c, c) > 1e-6 * before[c])) gram(c, c) += 1e6 * (before[c] + 1e-30);  // nothing the model could not do
+      if (!(gram(c, c) > 1e-11 * before[c])) gram(c, c) += 1e6 * (before[c] + 1e-30);  // nothing the model could not do
     const Eigen::LDLT<Eigen::MatrixXd> solver(gram);
     const Vector amplitude = solver.solve(columns.transpose() * left.head(model.rows()));
     found[t].gain = amplitude.dot(columns.transpose() * left.head(model.rows()));

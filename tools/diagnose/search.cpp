@@ -16,19 +16,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr int rounds = 3, iterations = 6;
-constexpr std::size_t refitted = 4, rivals_tried = 4;
-
-/// "cogging 0.9 of the residual's rms (p 1e-06), ..." for whoever waits.
-std::string best_of(const Screen& screened) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(6, screened.scores.size()); ++i) {
-    const auto& score = screened.scores[i];
-    text += fmt::format("{}{} would explain {:.1f} % (gain {:.0f}, p {:.1g})", i > 0 ? ", " : "", score.hypothesis->id,
-                        100.0 * score.gain / std::max(1.0, score.touched), score.gain,
-                        std::max(1e-9, screened.p_false_alarm(score.standard)));
-  }
-  return text;
-}
+/// Of the best hypotheses that are refitted; of which none is enough.
+constexpr std::size_t refitted = 4, refitted_for_one = 10, rivals_tried = 4;
 
 class Search {
  public:
@@ -46,7 +35,7 @@ class Search {
     for (std::size_t step = 0; step < 3 * bar_.most_effects; ++step) {
       progress_(fmt::format("asking {} hypotheses about the residual", hypotheses().size()));
       last_ = screen(fitter_, fit_, whitening_);
-      progress_(best_of(last_));
+      progress_(in_words(last_));
       if (fit_.model.effects.size() >= bar_.most_effects || !add_best()) break;
       drop_needless();
     }
@@ -62,7 +51,26 @@ class Search {
   /// The model from here on, refitted with a colour of its own.
   void take(const Candidate& model, int colours = 2) {
     fit_ = fitter_.fit_with_colour(model, whitening_, colours, iterations);
+    bring_back();
+    for (const auto& effect : fit_.model.effects)
+      if (possible(effect, fit_.model.axis)) sound_[effect.hypothesis] = effect.q;
     lacking_.clear();
+  }
+
+  /// A law with a kink may be stepped over to where its effect is none: once more from where it stood, beside the others
+  /// as they are now.
+  void bring_back() {
+    Candidate again = fit_.model;
+    bool any = false;
+    for (auto& effect : again.effects) {
+      const auto stood = sound_.find(effect.hypothesis);
+      if (stood != sound_.end() && !possible(effect, again.axis)) effect.q = stood->second, any = true;
+    }
+    if (!any) return;
+    Fit other = fitter_.fit(again, whitening_, iterations);
+    if (other.cost > fit_.cost) return;
+    whitening_ = fitter_.colour_of(other.residual);
+    fit_ = fitter_.linearised(other.model, whitening_);
   }
 
   /// The fit without one of its effects; asked for more than once.
@@ -101,9 +109,11 @@ class Search {
     };
     std::ranges::stable_sort(scores, std::greater{}, worth);
     for (const auto& score : scores) {
-      const double p = last_.p_false_alarm(score.standard);
-      if (score.gain < bar_.gain || p > bar_.p_false_alarm || dropped_.contains(score.hypothesis)) continue;
-      if (++tried > refitted) break;
+      double p = last_.p_false_alarm(score.standard);
+      const bool by_chance = p > bar_.p_false_alarm;
+      const bool by_chance_alone = by_chance && score.gain < score.hypothesis->far_off_gain;
+      if (score.gain < bar_.gain || by_chance_alone || dropped_.contains(score.hypothesis)) continue;
+      if (++tried > refitted && (!enough.empty() || tried > refitted_for_one)) break;
       Fit fit = fit_with(fitter_, fit_.model, score, fit_.model.effects.size(), whitening_, iterations);
       if (!possible(fit.model.effects.back(), fit.model.axis)) {
         progress_(fmt::format("  {}: no such size", in_words(fit.model.effects.back(), fit.model.axis)));
@@ -113,7 +123,8 @@ class Search {
       progress_(fmt::format("  {}: gain {:.0f}, surprise {:.0f}, strength {:.2f}",
                             in_words(fit.model.effects.back(), fit.model.axis), verdict.gain, verdict.surprise,
                             verdict.strength));
-      if (!verdict.enough) continue;
+      if (!verdict.enough || (by_chance && !verdict.far_off)) continue;
+      if (by_chance) p = std::min(1.0, std::exp(-0.5 * verdict.surprise) * static_cast<double>(hypotheses().size()));
       const double value = verdict.gain - bar_.per_parameter * static_cast<double>(freedom(*score.hypothesis));
       enough.push_back({std::move(fit), value, p});
     }
@@ -192,16 +203,17 @@ class Search {
     std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
   }
 
-  /// Where an effect shows most, the strength of the strongest other one: what its model leaves over is there too.
-  /// @param without the fit without it; @param settled of each effect, by equation, where the axis has settled
-  [[nodiscard]] double largest_beside(std::size_t effect, const Fit& without,
-                                      const std::vector<std::vector<double>>& settled) const {
-    const bool about_reversals = fit_.model.effects[effect].hypothesis->about_reversals;
-    const auto own = strengths(fitter_.model(), fit_, without, about_reversals, bar_);
+  /// Where an effect acts and shows most, the strength of the strongest other one: what its model leaves over is there too.
+  /// @param less fits without each effect
+  [[nodiscard]] double largest_beside(std::size_t effect, const std::vector<Fit>& less) const {
+    const auto& model = fitter_.model();
+    const auto own = strengths(model, fit_, less[effect], fit_.model.effects[effect].hypothesis->about_reversals, bar_);
     const auto equation = static_cast<std::size_t>(std::ranges::max_element(own) - own.begin());
+    const auto there = rows_of(model, fit_, less[effect]);
     double largest = 0.0;
-    for (std::size_t other = 0; other < settled.size(); ++other)
-      if (other != effect && worth_naming(fit_.model.effects[other])) largest = std::max(largest, settled[other][equation]);
+    for (std::size_t other = 0; other < less.size(); ++other)
+      if (other != effect && worth_naming(fit_.model.effects[other]))
+        largest = std::max(largest, strengths(model, fit_, less[other], false, bar_, there)[equation]);
     return largest;
   }
 
@@ -210,12 +222,10 @@ class Search {
     const std::size_t count = fit_.model.effects.size();
     std::vector<Fit> less;
     std::vector<Verdict> verdicts;
-    std::vector<std::vector<double>> strong;  // by equation
     std::vector<bool> everywhere(count);
     for (std::size_t i = 0; i < count; ++i) {
       less.push_back(lacking(i));
       verdicts.push_back(judged(fitter_, fit_, less[i], *fit_.model.effects[i].hypothesis, bar_));
-      strong.push_back(strengths(fitter_.model(), fit_, less[i], false, bar_));
     }
     std::vector<std::size_t> weakest_first(count);
     std::iota(weakest_first.begin(), weakest_first.end(), 0U);
@@ -223,7 +233,7 @@ class Search {
     for (const std::size_t i : weakest_first) {
       const Active& effect = fit_.model.effects[i];
       const auto& verdict = verdicts[i];
-      const double largest = largest_beside(i, less[i], strong);
+      const double largest = largest_beside(i, less);
       const auto gains = gains_by_fold(fitter_.model(), fit_, less[i], bar_.folds);
       // one fold may hold all that a shape parameter is known from: it must not outvote the others
       const double most_lost = -verdict.gain / static_cast<double>(bar_.folds);
@@ -237,7 +247,8 @@ class Search {
       const bool by_surprise = verdict.surprise > 0.5 * verdict.gain;
       const bool nearly_all = 4 * folds >= 3 * bar_.folds;
       const bool holds = by_surprise || nearly_all || (on_unseen > 0.4 * verdict.gain && folds >= bar_.folds_that_gain);
-      if (!holds || !verdict.enough || verdict.strength < bar_.beside * largest || !possible(effect, fit_.model.axis)) {
+      const bool hidden = !verdict.far_off && verdict.strength < bar_.beside * largest;
+      if (!holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
         drop(i, less[i].model, verdict);
         return false;
       }
@@ -248,7 +259,8 @@ class Search {
       for (const auto& score : earlier_[i])
         if (score.hypothesis == effect.hypothesis) touched = std::max(1.0, score.touched);
       const double share = std::clamp(verdicts[i].gain / (verdicts[i].gain + std::min(touched, fit_.cost)), 0.0, 1.0);
-      Found found{effect, verdicts[i].gain, share, verdicts[i].strength, chances_[i], {}, everywhere[i]};
+      Found found{effect,        verdicts[i].gain,   share, verdicts[i].strength, chances_[i], {},
+                  everywhere[i], verdicts[i].far_off};
       if (exchange(i, less[i], verdicts[i].gain, found)) return false;
       result.found.push_back(std::move(found));
     }
@@ -260,7 +272,8 @@ class Search {
   const std::function<void(std::string_view)>& progress_;
   Whitening whitening_;
   Fit fit_;
-  std::map<std::size_t, Fit> lacking_;  ///< of fit_, by effect
+  std::map<std::size_t, Fit> lacking_;                      ///< of fit_, by effect
+  std::map<const Hypothesis*, std::vector<double>> sound_;  ///< numbers that were possible
   Screen last_;
   std::vector<double> chances_;
   std::vector<std::vector<Score>> earlier_;  ///< what else was in question when each was added

@@ -27,7 +27,7 @@ struct Bar {
   double beside = 0.05;
   std::size_t folds = 8;  ///< stretches of a second, dealt out in turn
   std::size_t folds_that_gain = 3;
-  std::size_t most_effects = 6;
+  std::size_t most_effects = 8;
 };
 
 struct Found {
@@ -38,6 +38,7 @@ struct Found {
   double p_false_alarm = 1.0;
   std::vector<const Hypothesis*> rivals;  ///< fit as well in its place
   bool held_everywhere = false;           ///< on every unseen fold, with nearly all of its gain
+  bool far_off = false;                   ///< the numbers could do it, far from nominal: no channel bears it out
   bool by_closed_loop = false;            ///< asked for by the closed loop alone
   double missed_nats = 0.0;  ///< how much less likely the runs are in closed loop without it, all other numbers free
 };

@@ -38,6 +38,28 @@ Vector smoothed(const Vector& position_m) {
   return convolved(position_m, kernel);
 }
 
+/// Without what a grid makes of an axis at rest (two counts within 20 ms): counts of one sample, by a median, and the
+/// flicker between two neighbouring counts, by play as wide as the grid. Led to and fro by a count a hundred times, a
+/// bristle would have let go of what it holds.
+/// @param count_m the encoder's; no ruler is coarser
+Vector without_flicker(const Vector& x, double count_m) {
+  constexpr Index reach = 3, at_rest = 10;
+  double grid_m = count_m;
+  for (Index k = 1; k < x.size(); ++k)
+    if (x[k] != x[k - 1]) grid_m = std::min(grid_m, std::abs(x[k] - x[k - 1]));
+  const double play_m = 0.51 * grid_m;  // a little more than half: the recording's own digits
+  Vector out = x;
+  for (Index k = at_rest; k + at_rest < x.size(); ++k) {
+    const auto around = x.segment(k - at_rest, 2 * at_rest + 1);
+    if (around.maxCoeff() - around.minCoeff() > 2.1 * grid_m) continue;
+    std::array<double, 2 * reach + 1> near{};
+    std::copy_n(x.data() + k - reach, near.size(), near.begin());
+    std::ranges::nth_element(near, near.begin() + reach);
+    out[k] = std::clamp(out[k - 1], near[reach] - play_m, near[reach] + play_m);
+  }
+  return out;
+}
+
 /// Mean velocities of the sub-steps along the cubic through samples and their central differences.
 Vector path_velocities(const Vector& x, double h) {
   const Index n = x.size();
@@ -106,7 +128,6 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s, Index delay) 
     return meter;
   }
   meter.held = true;
-  meter.late = delay > 0;
   const Index phase = changes.empty() ? 0 : changes.front() % meter.length;
   for (Index k = phase; k + meter.length < power_W.size(); k += meter.length) {
     meter.starts.push_back(k + 1 - delay);
@@ -131,6 +152,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   const Vector x = as_vector(recording.at(channel::position_m));
   const Index n = track.size = x.size();
   const double per_lead = 2.0 * std::numbers::pi / axis.axis.lead_m;
+  const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
 
   track.held_N = per_lead * as_vector(recording.at(channel::torque_cmd_Nm));
   track.command_N = about_sample(track.held_N);
@@ -141,7 +163,10 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   track.centred_m_per_s = about_sample(track.velocity_m_per_s);
   track.motor_direction = (track.velocity_m_per_s.array() / standstill_m_per_s).tanh();
   track.acceleration_m_per_s2 = second_difference(x, h);
-  track.path_m_per_s = path_velocities(track.position_m, h);
+  const Vector steady = smoothed(without_flicker(x, count_m));
+  track.steady_m_per_s = Vector::Zero(n);
+  track.steady_m_per_s.head(n - 1) = (steady.tail(n - 1) - steady.head(n - 1)) / h;
+  track.path_m_per_s = path_velocities(steady, h);
   track.table_position_m = track.position_m;
   track.table_velocity_m_per_s = track.velocity_m_per_s;
   track.table_acceleration_m_per_s2 = track.acceleration_m_per_s2;
@@ -152,7 +177,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
     track.table_position_m = smoothed(table);
     track.table_velocity_m_per_s.head(n - 1) = (track.table_position_m.tail(n - 1) - track.table_position_m.head(n - 1)) / h;
     track.table_acceleration_m_per_s2 = second_difference(table, h);
-    track.table_path_m_per_s = path_velocities(track.table_position_m, h);
+    track.table_path_m_per_s = path_velocities(smoothed(without_flicker(table, count_m)), h);
   }
   follow_reversals(track);
 
@@ -164,10 +189,10 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
     track.force_sensor_N = convolved(as_vector(recording.at(channel::force_sensor_N)), triangle);
   track.half_step_N = convolved(track.held_N, triangle) - track.command_N;
   if (recording.has(channel::power_W))
-    track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h, static_cast<Index>(recording.meter_delay));
+    track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h, static_cast<Index>(recording.meter.delay));
   track.metered_m_per_s = Vector::Zero(n);
   track.metered_m_per_s.head(n - 1) = (x.tail(n - 1) - x.head(n - 1)) / h;
-  if (!track.meter.late) track.metered_m_per_s = about_sample(track.metered_m_per_s);
+  if (recording.meter.instants) track.metered_m_per_s = about_sample(track.metered_m_per_s);
   return track;
 }
 

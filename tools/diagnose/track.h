@@ -27,7 +27,6 @@ inline constexpr double standstill_m_per_s = 2e-4;
 struct MeterWindows {
   Index length = 0;   ///< samples a window
   bool held = false;  ///< the meter's own; otherwise means that we took
-  bool late = false;  ///< it shows what came before the row: means over samples rather than of instants
   std::vector<Index> starts;
   std::vector<double> power_W;
 };
@@ -43,6 +42,7 @@ struct Track {
   Vector position_m;        ///< lightly smoothed
   Vector velocity_m_per_s;  ///< mean over the sample that follows
   Vector centred_m_per_s;   ///< velocity at the sample
+  Vector steady_m_per_s;    ///< velocity_m_per_s, none where only the encoder's grid moves
   Vector motor_direction;   ///< tanh(velocity / standstill): how much of the motor's Coulomb friction acts, and which way
   Vector acceleration_m_per_s2;
   Vector path_m_per_s;  ///< velocities of the sub-steps, path_substeps a sample

@@ -18,7 +18,7 @@ const char* verdict_of(const Diagnosis& result) {
   const auto open = [](const NamedEffect& e) { return !e.alternatives.empty() && !e.hypothesis->number_of_the_model; };
   if (std::ranges::any_of(result.effects, open)) return "named-set";
   if (anything_missing(result)) return "named";
-  if (!result.suspects.empty()) return "cannot-tell";
+  if (!result.suspects.empty() && result.effects.empty()) return "cannot-tell";
   return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
 }
 

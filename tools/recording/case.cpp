@@ -105,9 +105,9 @@ Case read_case(const std::string& path) {
   }
   result.fit = recordings(file, "fit", map, result);
   result.holdout = recordings(file, "holdout", map, result);
-  const std::size_t delay = meter_delay(result.fit, result.axis);
+  const MeterHabit meter = meter_habit(result.fit, result.axis);
   for (auto* some : {&result.fit, &result.holdout})
-    for (auto& recording : *some) recording.meter_delay = delay;
+    for (auto& recording : *some) recording.meter = meter;
   for (const auto& recording : result.fit) {
     if (result.controller && !recording.has(channel::reference_m)) {
       file.fail("controller", fmt::format("a controller needs reference_m, which {} lacks", recording.file));

@@ -4,26 +4,39 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace feedtwin::tools {
 namespace {
 
-constexpr int laws = 8;  // idle, |v| and v^2 by direction, copper, work, work given back
+// idle, |v| and v^2 by direction, copper, work; work given back; work by what torque was, which is nearly a row's delay
+constexpr int own_laws = 7, laws = 9;
 using Laws = Eigen::Array<double, laws, 1>;
 
-/// What a tick's power may be made of (Eqs. 7 and 11, the copper loss that they leave out, and last the work given back that
-/// a drive may burn).
-Laws laws_of(double torque_Nm, double v, double rad_per_m) {
+/// What a tick's power may be made of (Eqs. 7 and 11, the copper loss that they leave out, the work of a torque that lags
+/// its command, and the work given back that a drive may burn).
+Laws laws_of(double torque_Nm, double torque_before_Nm, double v, double rad_per_m) {
   const double forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth, work_W = torque_Nm * rad_per_m * v;
   Laws all;
   all << 1.0, forth * std::abs(v), back * std::abs(v), forth * v * v, back * v * v, torque_Nm * torque_Nm, work_W,
-      std::max(0.0, -work_W);
+      std::max(0.0, -work_W), (torque_Nm - torque_before_Nm) * rad_per_m * v;
   return all;
+}
+
+/// Readings of every row, taken together.
+MeteredPower in_blocks(std::size_t rows) {
+  MeteredPower meter{.rows = {}, .window = 25, .delay = 0};
+  for (std::size_t row = 2 * meter.window; row < rows; row += meter.window) meter.rows.push_back(row);
+  return meter;
+}
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// Sum of squares of what the first `asked` laws leave over of the readings, however large each is; too few readings:
 /// nothing.
-double unexplained(std::span<const Recording> recordings, std::size_t delay, int asked, const plant::AxisParameters& axis) {
+double unexplained(std::span<const Recording> recordings, MeterHabit habit, int asked, const plant::AxisParameters& axis) {
   const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
   Eigen::Matrix<double, laws, laws> normal = Eigen::Matrix<double, laws, laws>::Zero();
   Eigen::Matrix<double, laws, 1> right = Eigen::Matrix<double, laws, 1>::Zero();
@@ -34,18 +47,24 @@ double unexplained(std::span<const Recording> recordings, std::size_t delay, int
     const auto power_W = recording.at(channel::power_W);
     if (position.empty()) continue;
     MeteredPower meter = metered_rows(recording, axis);
-    if (meter.window == 1) continue;
-    meter.delay = delay;
+    const bool held = meter.window > 1;
+    if (!held) meter = in_blocks(power_W.size());
+    meter.delay = held ? habit.delay : 0;
+    const auto velocity = [&](std::size_t k) {
+      const std::size_t from = habit.instants ? k - 1 : k;
+      return (position[k + 1] - position[from]) / (static_cast<double>(k + 1 - from) * recording.sample_s);
+    };
     for (const std::size_t row : meter.rows) {
-      if (row < meter.window || row + 1 >= position.size()) continue;
+      if (meter.first_tick(row) < 1 || row + 1 >= position.size()) continue;
       Laws sum = Laws::Zero();
       for (std::size_t k = meter.first_tick(row); k < meter.first_tick(row) + meter.window; ++k)
-        sum += laws_of(command[k], (position[k + 1] - position[k]) / recording.sample_s, rad_per_m);
+        sum += laws_of(command[k], command[k - 1], velocity(k), rad_per_m);
       sum.tail(laws - asked).setZero();
       const auto mean = sum.matrix() / static_cast<double>(meter.window);
       normal += mean * mean.transpose();
-      right += mean * power_W[row];
-      squares += power_W[row] * power_W[row];
+      const double reading_W = held ? power_W[row] : mean_of(power_W.subspan(row + 1 - meter.window, meter.window));
+      right += mean * reading_W;
+      squares += reading_W * reading_W;
       ++readings;
     }
   }
@@ -91,16 +110,18 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
   if (power_W.empty()) return {};
   const double window = std::round(axis.power_meter_window_s / recording.sample_s);
   MeteredPower meter = metered_rows(power_W, static_cast<std::size_t>(window));
-  if (meter.window > 1) meter.delay = recording.meter_delay;
+  if (meter.window > 1) meter.delay = recording.meter.delay;
   std::erase_if(meter.rows, [&meter](std::size_t row) { return row + 1 < meter.window + meter.delay; });
   return meter;
 }
 
-std::size_t meter_delay(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
+MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
   constexpr double clearly = 0.6;  // of the squares; a lagging current loop alone makes 0.66 (practice case p08)
-  for (const int asked : {laws - 1, laws})
-    if (unexplained(recordings, 1, asked, axis) < clearly * unexplained(recordings, 0, asked, axis)) return 1;
-  return 0;
+  constexpr MeterHabit instants{}, all_time{.delay = 0, .instants = false}, late{.delay = 1, .instants = false};
+  for (const int asked : {own_laws, own_laws + 1})
+    if (unexplained(recordings, late, asked, axis) < clearly * unexplained(recordings, all_time, asked, axis)) return late;
+  const double over_time = unexplained(recordings, all_time, laws, axis);
+  return over_time < clearly * unexplained(recordings, instants, laws, axis) ? all_time : instants;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

@@ -1,5 +1,6 @@
 #pragma once
-// How a recording's power meter reads: held for a window, the mean of that window, of this row's tick or of the one before.
+// How a recording's power meter reads: held for a window, the mean of that window (of instants or of all time), of this
+// row's tick or of the one before.
 
 #include <span>
 #include <vector>
@@ -25,9 +26,9 @@ struct MeteredPower {
 /// Of a recording, which may have no power: with the window that the axis file states and the recording's delay.
 [[nodiscard]] MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis);
 
-/// The delay of the meter that made these recordings: 1 where the recorded command and motion then explain the readings
-/// clearly better, otherwise 0.
-[[nodiscard]] std::size_t meter_delay(std::span<const Recording> recordings, const plant::AxisParameters& axis);
+/// How the meter that made these recordings reads: as the recorded command and motion explain its readings best, where that
+/// is clearly better than the means over instants of this row's window.
+[[nodiscard]] MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis);
 
 /// A simulated power as the recording's meter would show it, row by row.
 [[nodiscard]] std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter);

@@ -41,12 +41,18 @@ struct ChannelSource {
 };
 using ChannelMap = std::map<std::string, ChannelSource, std::less<>>;
 
+/// What a reading of the power meter is the mean of.
+struct MeterHabit {
+  std::size_t delay = 0;  ///< ticks between the window's last and the reading's row: 0 or 1
+  bool instants = true;   ///< of the power at the rows' instants; otherwise over all time between them
+};
+
 struct Recording {
   std::string file;
   std::map<std::string, std::vector<double>, std::less<>> channels;  ///< all equally long
   std::vector<std::string> unused_columns;                           ///< of the file
   double sample_s = 0.0;                                             ///< between rows
-  std::size_t meter_delay = 0;                                       ///< of the power meter in rows (power_meter.h)
+  MeterHabit meter;                                                  ///< of the power meter (power_meter.h)
 
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] double duration_s() const noexcept { return static_cast<double>(size()) * sample_s; }

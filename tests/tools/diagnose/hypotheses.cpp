@@ -66,7 +66,7 @@ const std::map<std::string_view, Trial>& trials() {
        {{{"position_m", 0.0194}, {"direction", 1.0}, {"stiffness_N_per_m", 3e5}, {"damping_Ns_per_m", 2000.0}},
         {0, 0, 0.0193, 1}}},
       {"count_loss", {{{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}, {0, 2.1}}},
-      {"screw_growth", {{{"relative_growth", 1e-4}, {"time_constant_s", 1.5}}, {0, 2}}},
+      {"screw_growth", {{{"relative_growth", 1e-4}, {"time_constant_s", 1.5}, {"fixed_end_m", -0.1}}, {0, 2, -0.06}}},
       {"load_dependent_friction", {{{"friction_per_load", 0.3}}, {0}}},
       {"presliding_memory", {{{"force_N", 80.0}, {"distance_m", 2e-5}}, {0, 3e-5}}},
   };

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/support/made_case.h"
 #include "tools/diagnose/hypotheses/shapes.h"
 #include "tools/diagnose/screen.h"
@@ -32,6 +35,37 @@ TEST_F(Judged, AnEffectIsStrongInTheEquationsThatItMovesAndInNoOther) {
     EXPECT_EQ(strength(model, with, without, true, Bar{}), found[e]);
   }
   EXPECT_GT(model.equations().size(), 1U);
+}
+
+// A stop at the end of the travel says nothing about a bump in its middle.
+TEST_F(Judged, AnEffectIsComparedWithOthersWhereItActs) {
+  const auto& rows = model.segments().front();
+  Fit with, without_bump, without_stop;
+  with.residual = without_bump.residual = without_stop.residual = Vector::Constant(model.rows(), 1.0);
+  without_bump.residual.segment(rows.start + rows.size / 2, 40).array() += 3.0;
+  without_stop.residual.segment(rows.start + rows.size - 40, 40).array() += 300.0;
+  const auto there = rows_of(model, with, without_bump);
+  EXPECT_EQ(std::ranges::count(there, true), 40);
+  EXPECT_GT(strengths(model, with, without_stop, true, Bar{})[rows.equation], 10.0);
+  EXPECT_EQ(strengths(model, with, without_stop, true, Bar{}, there)[rows.equation], 0.0);
+  EXPECT_EQ(strengths(model, with, without_bump, true, Bar{}, there)[rows.equation], 3.0);
+}
+
+// A gain that all numbers behind it could do leaves nothing over; that they would all be far off by the same tells it.
+TEST_F(Judged, NumbersThatWouldBeFarOffNameWhatLeavesNothingOver) {
+  Fit with, without;
+  with.residual = without.residual = Vector::Constant(model.rows(), 1.0);
+  with.base = without.base = fitter.base();
+  const auto numbers = static_cast<Index>(fitter.base().size());
+  for (const double squares : {30.0, 50.0}) {
+    with.white = without.white = Vector::Zero(model.rows() + numbers);
+    without.white.tail(numbers).setConstant(std::sqrt(squares / static_cast<double>(numbers)));
+    with.cost = 0.0, without.cost = squares;
+    const auto of_sensor = judged(fitter, with, without, hypothesis("sensor_gain"), Bar{});
+    EXPECT_EQ(of_sensor.enough, squares > 40.0);
+    EXPECT_EQ(of_sensor.far_off, squares > 40.0);
+    EXPECT_FALSE(judged(fitter, with, without, hypothesis("torque_offset"), Bar{}).enough);
+  }
 }
 
 TEST_F(Judged, AHypothesisMayAskForMoreThanTheOthers) {

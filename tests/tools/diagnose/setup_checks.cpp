@@ -98,7 +98,7 @@ TEST(SetupChecks, AMetersWindowIsKnownToHalfASample) {
   auto axis = plant::source_axis();
   Track track;
   track.sample_s = 1e-3;
-  track.meter = {.length = 50, .held = true, .late = true, .starts = {}, .power_W = {}};
+  track.meter = {.length = 50, .held = true, .starts = {}, .power_W = {}};
   const auto faults = check_meter(track, axis);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_NEAR(faults[0].parameters[0].value, 0.05, 1e-12);

@@ -47,6 +47,16 @@ TEST(BeyondTheCatalogue, MuchStructureIsUnknownBesideANameToo) {
   EXPECT_TRUE(much.with_a_name);
 }
 
+TEST(Verdict, AGravityThatIsToldIsARecalibrationWhateverIsSuspected) {
+  Diagnosis result;
+  result.suspects.push_back({.hypothesis = &hypothesis("hard_stop"), .model = {}});
+  EXPECT_STREQ(verdict_of(result), "cannot-tell");
+  NamedEffect gravity;
+  gravity.hypothesis = &hypothesis("gravity");
+  result.effects.push_back(gravity);
+  EXPECT_STREQ(verdict_of(result), "recalibrate");
+}
+
 TEST(BeyondTheCatalogue, NothingHiddenIsNotUnknown) {
   const auto none = weighed(0.0);
   EXPECT_FALSE(none.with_nothing_named);

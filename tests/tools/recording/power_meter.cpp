@@ -16,9 +16,30 @@ std::vector<Recording> runs_of_the_plant() {
   return runs;
 }
 
-TEST(MeterDelay, OfThePlantsMeterIsNone) {
-  const auto runs = runs_of_the_plant();
-  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 0U);
+TEST(MeterHabit, OfThePlantsMeterIsAllTimeOfTheRowsOwnTicks) {
+  const auto habit = meter_habit(runs_of_the_plant(), plant::source_axis());
+  EXPECT_EQ(habit.delay, 0U);
+  EXPECT_FALSE(habit.instants);
+}
+
+/// Instants of the drive's power law (Eq. 11), as a meter that is sampled with the controller averages them over 100 ms.
+TEST(MeterHabit, OfInstantsIsTold) {
+  auto runs = runs_of_the_plant();
+  for (auto& run : runs) {
+    const auto command = run.at(channel::torque_cmd_Nm), position = run.at(channel::position_m);
+    auto& power_W = run.channels.at(std::string(channel::power_W));
+    std::vector<double> instants(power_W.size(), 0.0);
+    const auto& motor = plant::source_axis().motor;
+    for (std::size_t k = 1; k + 1 < instants.size(); ++k) {
+      const double v = (position[k + 1] - position[k - 1]) / 2e-3, force_N = command[k] * 2.0 * M_PI / 0.005;
+      const auto own = [v](const auto& by_direction) { return v > 0.0 ? by_direction.pos : by_direction.neg; };
+      instants[k] = motor.electrical_idle_W + own(motor.electrical_linear_Ws_per_m) * std::abs(v) +
+                    own(motor.electrical_quadratic_Ws2_per_m2) * v * v + force_N * v;
+    }
+    const MeteredPower meter = metered_rows(power_W, 100);
+    power_W = as_metered(instants, meter);
+  }
+  EXPECT_TRUE(meter_habit(runs, plant::source_axis()).instants);
 }
 
 void read_a_row_later(std::vector<Recording>& runs) {
@@ -26,12 +47,12 @@ void read_a_row_later(std::vector<Recording>& runs) {
     auto& power_W = run.channels.at(std::string(channel::power_W));
     power_W.insert(power_W.begin(), power_W.front());
     power_W.pop_back();
-    run.meter_delay = 1;
+    run.meter.delay = 1;
   }
 }
 
 // Power that is not given back is beyond the laws of a drive, and a row's delay small beside it.
-TEST(MeterDelay, IsToldOfADriveThatBurnsWhatComesBack) {
+TEST(MeterHabit, IsToldOfADriveThatBurnsWhatComesBack) {
   auto axis = plant::source_axis();
   axis.effects.push_back(tests::effect("regeneration_clipped", {{"share", 1.0}}));
   for (const double amplitude_m : {0.005, 0.015, 0.04})
@@ -45,37 +66,37 @@ TEST(MeterDelay, IsToldOfADriveThatBurnsWhatComesBack) {
                                                                  .jerk_m_per_s3 = 2000.0,
                                                                  .dwell_s = 0.05},
                                                     .duration_s = 6.0}));
-      EXPECT_EQ(meter_delay(runs, axis), 0U) << amplitude_m << ", " << speed_m_per_s;
+      EXPECT_EQ(meter_habit(runs, axis).delay, 0U) << amplitude_m << ", " << speed_m_per_s;
       read_a_row_later(runs);
-      EXPECT_EQ(meter_delay(runs, axis), 1U) << amplitude_m << ", " << speed_m_per_s;
+      EXPECT_EQ(meter_habit(runs, axis).delay, 1U) << amplitude_m << ", " << speed_m_per_s;
     }
 }
 
-TEST(MeterDelay, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
+TEST(MeterHabit, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
   auto runs = runs_of_the_plant();
   read_a_row_later(runs);
-  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 1U);
+  EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 1U);
   const auto meter = metered_rows(runs[0], plant::source_axis());
   EXPECT_EQ(meter.delay, 1U);
   EXPECT_EQ(meter.first_tick(meter.rows[0]) % meter.window, 0U);
 }
 
-TEST(MeterDelay, IsNotToldByAFewReadings) {
+TEST(MeterHabit, IsNotToldByAFewReadings) {
   auto runs = runs_of_the_plant();
   runs.resize(1);
   for (auto& [name, values] : runs[0].channels) values.resize(850);
   auto& power_W = runs[0].channels.at(std::string(channel::power_W));
   power_W.insert(power_W.begin(), power_W.front());  // what would be told from more
   power_W.pop_back();
-  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 0U);
+  EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 0U);
 }
 
-TEST(MeterDelay, NeedsReadingsToBeTold) {
+TEST(MeterHabit, NeedsReadingsToBeTold) {
   auto runs = runs_of_the_plant();
   for (auto& run : runs) run.channels.erase(std::string(channel::power_W));
-  EXPECT_EQ(meter_delay(runs, plant::source_axis()), 0U);
+  EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 0U);
   EXPECT_TRUE(metered_rows(runs[0], plant::source_axis()).rows.empty());
-  EXPECT_EQ(meter_delay({}, plant::source_axis()), 0U);
+  EXPECT_EQ(meter_habit({}, plant::source_axis()).delay, 0U);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchRes
   for (std::size_t e = fit.model.effects.size(); e-- > 0;) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
     if (!worth_naming(fit.model.effects[e]) || hypothesis->number_of_the_model) continue;
-    if (const auto* named = found.of(hypothesis); named != nullptr && named->by_closed_loop) continue;
+    if (const auto* named = found.of(hypothesis); named != nullptr && (named->by_closed_loop || named->far_off)) continue;
     auto seen = confirm(forward, fitter, found.whitening, fit.model, e);
     progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
                          seen.channel.empty() ? "no channel" : seen.channel, seen.error_ratio));

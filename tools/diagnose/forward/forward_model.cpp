@@ -102,7 +102,7 @@ Simulated ForwardModel::simulated(const ClosedLoopRun& run, const plant::AxisPar
   const auto& recording = run.recording();
   const bool sensors = recording.has(channel::torque_sensor_Nm) || recording.has(channel::force_sensor_N);
   Simulated made = simulate_closed_loop(run, axis, 0.0, sensors);
-  if (meter_.sampled) made.power_W.swap(made.instant_power_W);
+  if (recording.meter.instants) made.power_W.swap(made.instant_power_W);
   return made;
 }
 
@@ -127,18 +127,6 @@ std::vector<Simulated> ForwardModel::simulate(const AxisByRun& axis) const {
   return all;
 }
 
-void ForwardModel::learn_meter(const AxisByRun& axis) {
-  const auto error = [&](bool sampled) {
-    meter_.sampled = sampled;
-    const auto found = nrmse(axis);
-    const auto power = found.find(std::string(channel::power_W));
-    return power == found.end() ? 0.0 : power->second;
-  };
-  const double sampled = error(true);
-  const double all_time = error(false);
-  meter_.sampled = sampled < all_time;
-}
-
 void ForwardModel::learn_meter_noise(const AxisByRun& axis) {
   const auto power = std::ranges::find(fitted_channels, channel::power_W) - fitted_channels.begin();
   const auto simulated = simulate(axis);
@@ -156,7 +144,7 @@ void ForwardModel::learn_meter_noise(const AxisByRun& axis) {
   if (shares.empty()) return;
   const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
   std::nth_element(shares.begin(), middle, shares.end());
-  meter_.share = 1.4826 * *middle;
+  meter_share_ = 1.4826 * *middle;
 }
 
 Nrmse ForwardModel::nrmse(const AxisByRun& axis) const {
@@ -170,7 +158,7 @@ Nrmse ForwardModel::noise_floor(const AxisByRun& axis) const {
   const auto simulated = simulate(axis);
   const double count_m = axis.common.axis.lead_m / axis.common.axis.encoder_counts_per_rev;
   std::vector<Recording> made;
-  for (std::size_t r = 0; r < runs_.size(); ++r) made.push_back(as_recorded(runs_[r], simulated[r], count_m, meter_.share));
+  for (std::size_t r = 0; r < runs_.size(); ++r) made.push_back(as_recorded(runs_[r], simulated[r], count_m, meter_share_));
   ForwardModel again(made, *data_);
   again.take_meter_from(*this);
   return again.nrmse(axis);

@@ -15,12 +15,9 @@ class ForwardModel {
   /// @param recordings of the case, or some of them; must outlive this
   ForwardModel(const std::vector<Recording>& recordings, const Case& data);
 
-  /// Does the power meter average over all time, or over instants sampled with the controller? Whichever comes closer to the
-  /// recordings with this axis; until asked, over all time.
-  void learn_meter(const AxisByRun& axis);
   /// The scatter of the meter's readings, as a share of each, from the differences of neighbouring residuals.
   void learn_meter_noise(const AxisByRun& axis);
-  void take_meter_from(const ForwardModel& other) { meter_ = other.meter_; }
+  void take_meter_from(const ForwardModel& other) { meter_share_ = other.meter_share_; }
 
   [[nodiscard]] const std::vector<ClosedLoopRun>& runs() const { return runs_; }
   /// One run of each axis, on all cores.
@@ -39,10 +36,7 @@ class ForwardModel {
   [[nodiscard]] Simulated simulated(const ClosedLoopRun& run, const plant::AxisParameters& axis) const;
 
   const Case* data_;
-  struct Meter {
-    bool sampled = false;
-    double share = 0.0;
-  } meter_;
+  double meter_share_ = 0.0;
   std::vector<ClosedLoopRun> runs_;
 };
 

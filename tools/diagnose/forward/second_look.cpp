@@ -14,10 +14,12 @@ namespace {
 
 constexpr int iterations = 6, most_names = 2;
 constexpr std::size_t most_asked = 4;
-constexpr double least_gain = 50.0;                     // by the inverse model
-constexpr double beyond_noise = 2.0;                    // a channel that is worth the question
-constexpr double least_ratio = 1.5, least_share = 0.5;  // of a channel's error; of what is beyond noise
+constexpr double least_gain = 50.0;                      // by the inverse model
+constexpr double beyond_noise = 2.0;                     // a channel that is worth the question
+constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
+// what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
+constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
 constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
 
@@ -45,8 +47,8 @@ std::vector<Score> questions(const Screen& left, const Candidate& model) {
     const Hypothesis& h = *score.hypothesis;
     if (has(model, h)) continue;
     if (!h.closed_loop_start.empty()) untold.push_back(score);
-    // what acts at reversals is also what one bristle cannot do of any friction
-    else if (!h.about_reversals && score.gain > least_gain && asked.size() < most_asked)
+    // what friction does at reversals is also what one bristle cannot do of any friction
+    else if (!(h.about_reversals && h.component != "drive") && score.gain > least_gain && asked.size() < most_asked)
       asked.push_back(score);
   }
   asked.insert(asked.end(), untold.begin(), untold.end());
@@ -75,12 +77,19 @@ class SecondLook {
     if (!is_off(errors_)) return false;
     std::optional<Ruling> best;
     const Score* better = nullptr;
+    std::vector<std::pair<const Score*, Ruling>> answers;
     for (const auto& score : asked) {
       auto one = answer(score, *settled, found.whitening, fit);
-      if (!one || (best && best->value > one->value)) continue;
-      best = std::move(one), better = &score;
+      if (!one) continue;
+      answers.emplace_back(&score, *one);
+      if (!best || one->value > best->value) best = std::move(one), better = &score;
     }
     if (!best) return false;
+    for (auto& [score, other] : answers)
+      if (score != better && easily_confused(*score->hypothesis, *better->hypothesis)) {
+        contest(*best, other, forward_, fitter_);
+        if (other.value > best->value) std::swap(*best, other), better = score;
+      }
     const double gain = fit.cost - best->fit.cost;
     found.found.push_back({.effect = best->model.effects.back(),
                            .gain = gain,
@@ -121,7 +130,8 @@ class SecondLook {
                                difference.deviations >= least_deviations;
     const bool surely_read = score.hypothesis->only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
                              difference.deviations >= sure_deviations;
-    return closer_by_far || surely_read ? std::optional(one) : std::nullopt;
+    const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && difference.deviations >= loud_deviations;
+    return closer_by_far || loud || surely_read ? std::optional(one) : std::nullopt;
   }
 
   const ForwardModel& forward_;

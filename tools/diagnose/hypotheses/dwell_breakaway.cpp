@@ -23,7 +23,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   Vector factor(track.size);
   double age_s = 0.0;
   for (Index k = 0; k < track.size; ++k) {
-    const double worn = std::abs(track.velocity_m_per_s[k]) * track.sample_s / memory_distance_m,
+    const double worn = std::abs(track.steady_m_per_s[k]) * track.sample_s / memory_distance_m,
                  left = plant::exp_of_minus(worn);
     age_s = age_s * left + track.sample_s * (worn > 1e-3 ? (1.0 - left) / worn : 1.0 - worn * (0.5 - worn / 6.0));
     factor[k] = 1.0 + rise_after(age_s, q);
@@ -42,6 +42,11 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return rise > 0.03 && rise < 0.95 * largest_rise && rise_after(1.0, q) > 0.01;
 }
 
+/// What is there after a tenth of a second is friction about reversals too.
+bool finding(std::span<const double> q) {
+  return q[1] < 10.0;
+}
+
 }  // namespace
 
 Hypothesis dwell_breakaway() {
@@ -58,6 +63,7 @@ Hypothesis dwell_breakaway() {
           .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
           .least_gain = 100.0,  // friction about reversals is modelled worst: 33 to 93 where there was none, true ones 364
           .about_reversals = true,
+          .finding = finding,
           .confused_with = {"presliding_memory"},
           .closed_loop_start = {0.3, 1.0},  // about reversals the inverse model has only their ratio, and that roughly
           .friction = true};

@@ -19,8 +19,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"relative_change", q[0]}, {"time_constant_s", q[1]}};
 }
 
+/// What a recording shows of it.
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return std::abs(q[0]) > 0.005;
+  constexpr double a_recording_s = 10.0, least_change = 0.005;
+  return std::abs(q[0]) * (1.0 - std::exp(-a_recording_s / q[1])) > least_change;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 1e4;  // softer is a spring
+  return q[0] > 1e3;  // softer is a spring
 }
 
 /// Only the ends of the travel can have met something.
@@ -36,7 +36,7 @@ std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs) {
     high = std::max(high, run.table_position_m.maxCoeff());
   }
   Grid grid;
-  for (const double depth : {5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3}) {
+  for (const double depth : {5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 4e-3, 1e-2}) {
     grid.push_back({high - depth, 1.0});
     grid.push_back({low + depth, -1.0});
   }

@@ -39,7 +39,7 @@ Hypothesis input_delay() {
           .named = named,
           .admissible = possible,
           .sentence = "the command acts {delay_s} s late",
-
+          .finding = late_beyond_a_model,
           .confused_with = {"current_loop_lag", "channel_skew", "frictional_lag"},
           .too_small_to_tell = gone_within_a_sample,
           .starts = {{1.5e-3}, {2.5e-3}, {3.5e-3}},  // a sensor reads another command with each whole tick

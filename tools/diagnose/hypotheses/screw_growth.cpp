@@ -8,16 +8,16 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double fixed_end_m = -0.075;
+constexpr double farthest_bearing_m = 0.5;  // from the middle of the stroke
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
   const auto warmed = 1.0 - (-t.array() / q[1]).exp();
-  add(sum.slip_m, (q[0] * warmed * (view.track.position_m.array() - fixed_end_m)).matrix());
+  add(sum.slip_m, (q[0] * warmed * (view.track.position_m.array() - q[2])).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_growth", q[0]}, {"time_constant_s", q[1]}, {"fixed_end_m", fixed_end_m}};
+  return {{"relative_growth", q[0]}, {"time_constant_s", q[1]}, {"fixed_end_m", q[2]}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -31,8 +31,10 @@ Hypothesis screw_growth() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::position,
-          .parameters = {{"relative_growth", Kind::amplitude, 1e-7}, {"time_constant_s", Kind::shape, 1e-2, 0.5, 1e4}},
-          .shapes = {{2.0}, {5.0}, {15.0}, {100.0}},
+          .parameters = {{"relative_growth", Kind::amplitude, 1e-7},
+                         {"time_constant_s", Kind::shape, 1e-2, 0.5, 1e4},
+                         {"fixed_end_m", Kind::shape, 1e-4, -farthest_bearing_m, farthest_bearing_m}},
+          .shapes = {{2.0, -0.075}, {5.0, -0.075}, {15.0, -0.075}, {100.0, -0.075}, {5.0, 0.075}, {100.0, 0.075}},
           .apply = apply,
           .named = named,
           .admissible = possible,

@@ -84,6 +84,10 @@ Grid frequencies(double low_Hz, double high_Hz) {
   return grid;
 }
 
+bool late_beyond_a_model(std::span<const double> q) {
+  return q[0] > 6e-5;
+}
+
 bool gone_within_a_sample(std::span<const double> q, double sample_s) {
   return q[0] < 0.2 * sample_s;
 }

@@ -23,6 +23,9 @@ namespace feedtwin::tools::diagnosis {
 /// as much from the mean torque as a delay.
 [[nodiscard]] bool gone_within_a_sample(std::span<const double> q, double sample_s);
 
+/// Of the same: less is how two models of one axis differ, in where within a sample friction and torque stand.
+[[nodiscard]] bool late_beyond_a_model(std::span<const double> q);
+
 /// A force of one frequency with a phase of its own in each of up to four runs: sine and cosine of each run, frequency.
 [[nodiscard]] std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz);
 void add_line(const Track& track, std::span<const double> q, Vector& force_N);

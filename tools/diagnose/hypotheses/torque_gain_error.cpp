@@ -10,8 +10,8 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  // without a sensor behind the motor every friction number takes it up, and the power meter's own faults would tell it
-  if (track.torque_sensor_N.size() == 0 && track.force_sensor_N.size() == 0) return;
+  // without a sensor behind the motor, and without a power meter, every friction number takes it up
+  if (track.torque_sensor_N.size() == 0 && track.force_sensor_N.size() == 0 && track.meter.starts.empty()) return;
   add(sum.drive_N, q[0] * track.command_N);
 }
 

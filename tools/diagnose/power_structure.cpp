@@ -1,0 +1,65 @@
+#include "tools/diagnose/power_structure.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr std::size_t folds = 4;
+constexpr double stretch_s = 0.73;  // no motion repeats in step with it
+constexpr Index least_rows_a_column = 5;
+
+/// By direction of motion 1, v^2 and |v|; mechanical power, what of it flows back, force squared. (n x 8)
+Eigen::MatrixXd powers(const Track& track) {
+  Eigen::MatrixXd all(track.size, 8);
+  for (Index k = 0; k < track.size; ++k) {
+    const double v = track.metered_m_per_s[k], u = track.held_N[k];
+    const double forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth, mechanical = u * v;
+    all.row(k) << 1.0, forth * v, back * v, forth * v * v, back * v * v, mechanical, std::max(0.0, -mechanical), u * u;
+  }
+  return all;
+}
+
+}  // namespace
+
+PowerStructure::PowerStructure(const InverseModel& model) : model_(model) {
+  std::vector<Eigen::RowVectorXd> means;
+  for (const auto& segment : model.segments()) {
+    if (!model.equations()[segment.equation].power) continue;
+    const Track& track = model.tracks()[segment.run];
+    const Eigen::MatrixXd all = powers(track);
+    for (Index i = 0; i < segment.size; ++i) {
+      rows_.push_back(segment.start + i);
+      means.push_back(all.middleRows(track.meter.starts[static_cast<std::size_t>(i)], track.meter.length).colwise().mean());
+      const double t = static_cast<double>(model.sample_of(segment, i)) * track.sample_s;
+      folds_.push_back((static_cast<std::size_t>(t / stretch_s) + segment.run) % folds);
+    }
+  }
+  if (means.empty() || static_cast<Index>(means.size()) < least_rows_a_column * means.front().size()) {
+    rows_.clear();
+    return;
+  }
+  columns_.resize(static_cast<Index>(means.size()), means.front().size());
+  for (std::size_t i = 0; i < means.size(); ++i) columns_.row(static_cast<Index>(i)) = means[i];
+  for (Index c = 0; c < columns_.cols(); ++c) columns_.col(c) /= std::max(columns_.col(c).norm(), 1e-300);
+}
+
+Vector PowerStructure::part_of(const Vector& residual) const {
+  Vector part = Vector::Zero(residual.size());
+  if (rows_.empty()) return part;
+  const Vector y = residual(rows_);
+  Vector predicted(y.size());
+  for (std::size_t f = 0; f < folds; ++f) {
+    std::vector<Index> own, others;
+    for (std::size_t i = 0; i < folds_.size(); ++i) (folds_[i] == f ? own : others).push_back(static_cast<Index>(i));
+    const Eigen::MatrixXd seen = columns_(others, Eigen::all);
+    Eigen::MatrixXd normal = seen.transpose() * seen;
+    normal.diagonal().array() += 1e-9;
+    predicted(own) = columns_(own, Eigen::all) * normal.ldlt().solve(seen.transpose() * y(others));
+  }
+  if ((y - predicted).squaredNorm() < y.squaredNorm()) part(rows_) = predicted;
+  return part;
+}
+
+}  // namespace feedtwin::tools::diagnosis
