@@ -18,6 +18,7 @@ constexpr double least_gain = 50.0;                      // by the inverse model
 constexpr double beyond_noise = 2.0;                     // a channel that is worth the question
 constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
+constexpr double clearly_nats = 100.0;  // better than what it is easily confused with, as where the inverse model asked
 // what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
 constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
@@ -75,42 +76,55 @@ class SecondLook {
     settled = settled ? rule_again(*settled, forward_, fitter_, SlopesOf::before) : rule(fit, forward_, fitter_);
     errors_ = forward_.nrmse(extended(settled->model));
     if (!is_off(errors_)) return false;
-    std::optional<Ruling> best;
-    const Score* better = nullptr;
-    std::vector<std::pair<const Score*, Ruling>> answers;
-    for (const auto& score : asked) {
-      auto one = answer(score, *settled, found.whitening, fit);
-      if (!one) continue;
-      answers.emplace_back(&score, *one);
-      if (!best || one->value > best->value) best = std::move(one), better = &score;
-    }
-    if (!best) return false;
-    for (auto& [score, other] : answers)
-      if (score != better && easily_confused(*score->hypothesis, *better->hypothesis)) {
-        contest(*best, other, forward_, fitter_);
-        if (other.value > best->value) std::swap(*best, other), better = score;
-      }
-    const double gain = fit.cost - best->fit.cost;
-    found.found.push_back({.effect = best->model.effects.back(),
+    std::vector<Answer> answers;
+    for (const auto& score : asked)
+      if (auto one = answer(score, *settled, found.whitening, fit)) answers.push_back(std::move(*one));
+    std::ranges::stable_sort(answers, std::greater{}, [](const Answer& a) { return a.ruling.value; });
+    auto best = std::ranges::find(answers, true, &Answer::enough);
+    if (best == answers.end()) return false;
+    const auto rivals = settled_against_others(answers, best);
+    const double gain = fit.cost - best->ruling.fit.cost;
+    found.found.push_back({.effect = best->ruling.model.effects.back(),
                            .gain = gain,
-                           .share = std::clamp(gain / std::max(1.0, better->touched), 0.0, 1.0),
+                           .share = std::clamp(gain / std::max(1.0, best->score->touched), 0.0, 1.0),
                            .strength = 0.0,
-                           .p_false_alarm = chance_of(compared(best->likelihood, settled->likelihood).deviations),
-                           .rivals = {},
+                           .p_false_alarm = chance_of(compared(best->ruling.likelihood, settled->likelihood).deviations),
+                           .rivals = rivals,
                            .held_everywhere = false,
                            .by_closed_loop = true});
-    fit = best->fit;
-    settled = std::move(best);
+    fit = best->ruling.fit;
+    settled = std::move(best->ruling);
     return true;
   }
 
  private:
+  /// The closed loop with one effect more.
+  struct Answer {
+    const Score* score;
+    Ruling ruling;
+    bool enough;  ///< to be named
+  };
+
+  /// What is easily confused with the best of the answers, and does as well, takes its place or stands beside it.
+  [[nodiscard]] std::vector<const Hypothesis*> settled_against_others(std::vector<Answer>& answers,
+                                                                      std::vector<Answer>::iterator best) const {
+    std::vector<const Hypothesis*> rivals;
+    for (auto other = answers.begin(); other != answers.end(); ++other) {
+      if (other == best || !easily_confused(*other->score->hypothesis, *best->score->hypothesis)) continue;
+      contest(best->ruling, other->ruling, forward_, fitter_);
+      if (!can_be_named(other->ruling.model.effects.back(), other->ruling.model.axis)) continue;
+      if (other->ruling.value > best->ruling.value) std::swap(*best, *other);
+      if (best->ruling.value - other->ruling.value < clearly_nats) rivals.push_back(other->score->hypothesis);
+    }
+    return rivals;
+  }
+
   [[nodiscard]] bool is_off(const Nrmse& errors) const {
     return std::ranges::any_of(errors, [&](const auto& e) { return e.second > beyond_noise * floor_.at(e.first); });
   }
 
   /// The closed loop with one effect more; nothing where that is not the answer.
-  [[nodiscard]] std::optional<Ruling> answer(const Score& score, const Ruling& now, const Whitening& whitening,
+  [[nodiscard]] std::optional<Answer> answer(const Score& score, const Ruling& now, const Whitening& whitening,
                                              const Fit& fit) const {
     Fit with = fit_with(fitter_, fit.model, score, fit.model.effects.size(), whitening, iterations);
     Active& effect = with.model.effects.back();
@@ -118,7 +132,7 @@ class SecondLook {
       if (score.hypothesis->closed_loop_start.empty()) return std::nullopt;
       effect.q = score.hypothesis->closed_loop_start;
     }
-    const Ruling one = rule_with_one_more(now, std::move(with), forward_, fitter_);
+    Ruling one = rule_with_one_more(now, std::move(with), forward_, fitter_);
     if (!can_be_named(one.model.effects.back(), one.model.axis)) return std::nullopt;
     const auto seen = closer(errors_, forward_.nrmse(extended(one.model)), floor_, score.hypothesis->only_readings);
     const auto difference = compared(one.likelihood, now.likelihood);
@@ -131,7 +145,7 @@ class SecondLook {
     const bool surely_read = score.hypothesis->only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
                              difference.deviations >= sure_deviations;
     const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && difference.deviations >= loud_deviations;
-    return closer_by_far || loud || surely_read ? std::optional(one) : std::nullopt;
+    return Answer{&score, std::move(one), closer_by_far || loud || surely_read};
   }
 
   const ForwardModel& forward_;

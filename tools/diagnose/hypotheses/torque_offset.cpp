@@ -29,6 +29,7 @@ Hypothesis torque_offset() {
           .named = named,
           .sentence = "the drive adds a constant {offset_Nm} N m",
           .absorbed = true,
+          .far_off_gain = 150.0,
           .confused_with = {"gravity", "direction_dependent_friction"},
           .friction = false};
 }
