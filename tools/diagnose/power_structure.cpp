@@ -23,7 +23,7 @@ Eigen::MatrixXd powers(const Track& track) {
 
 }  // namespace
 
-PowerStructure::PowerStructure(const InverseModel& model) : model_(model) {
+PowerStructure::PowerStructure(const InverseModel& model) {
   std::vector<Eigen::RowVectorXd> means;
   for (const auto& segment : model.segments()) {
     if (!model.equations()[segment.equation].power) continue;

@@ -10,7 +10,6 @@ namespace feedtwin::tools::diagnosis {
 
 class PowerStructure {
  public:
-  /// @param model must outlive this
   explicit PowerStructure(const InverseModel& model);
 
   /// What of the power equation's residual is predicted on seconds that the prediction has not seen; zero elsewhere, and
@@ -18,7 +17,6 @@ class PowerStructure {
   [[nodiscard]] Vector part_of(const Vector& residual) const;
 
  private:
-  const InverseModel& model_;
   std::vector<Index> rows_;         ///< of the power equation, all runs in turn
   Eigen::MatrixXd columns_;         ///< a row each
   std::vector<std::size_t> folds_;  ///< of each
