@@ -113,7 +113,8 @@ class Search {
       const bool by_chance = p > bar_.p_false_alarm;
       const bool by_chance_alone = by_chance && score.gain < score.hypothesis->far_off_gain;
       if (score.gain < bar_.gain || by_chance_alone || dropped_.contains(score.hypothesis)) continue;
-      if (++tried > refitted && (!enough.empty() || tried > refitted_for_one)) break;
+      ++tried;
+      if (tried > refitted && (!enough.empty() || tried > refitted_for_one)) break;
       Fit fit = fit_with(fitter_, fit_.model, score, fit_.model.effects.size(), whitening_, iterations);
       if (!possible(fit.model.effects.back(), fit.model.axis)) {
         progress_(fmt::format("  {}: no such size", in_words(fit.model.effects.back(), fit.model.axis)));
