@@ -21,7 +21,7 @@ struct Resolution {
   int reversing = 3;
   double settling_within_ticks = 12.0;
   double reversing_within_ticks = 2.0;
-  int swinging = 6;  ///< at least, where the table swings against the screw: 6 for 500 Hz
+  int swinging = 6;  ///< at most, for the table's swing against the screw: all of them where a gap closes
 };
 inline constexpr Resolution one_count{};                           ///< position within one count of 76 nm
 inline constexpr Resolution tenth_of_a_count{1, 2, 5, 30.0, 3.0};  ///< within a tenth

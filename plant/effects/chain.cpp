@@ -94,7 +94,7 @@ AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noex
 Resolution EffectChain::at_least(Resolution resolution) const noexcept {
   constexpr int waving = 3;  // 0.1 m/s and twelve periods a revolution: half a radian a sub-step
   const bool quiet = !coupling_ && screw_loads_.empty() && table_loads_.empty() && advancing_.empty();
-  const int least = coupling_ ? resolution.swinging : quiet ? 1 : waving;
+  const int least = coupling_ ? coupling_->substeps(resolution.swinging) : quiet ? 1 : waving;
   resolution.sliding = std::max(resolution.sliding, least);
   resolution.settling = std::max(resolution.settling, least);
   resolution.reversing = std::max(resolution.reversing, 2 * least);
@@ -177,7 +177,7 @@ ExtraLoad<double> EffectChain::before(const AxisState<double>& start,
       scaling_.empty() ? FrictionScale<double>{} : scale_at(screw_, table_, on_table.force_N + cutting_force_N_);
   if (coupling_) {
     on_table.force_N += cutting_force_N_;
-    on_table = coupling_->respond(screw_, on_table, scale);
+    on_table = coupling_->respond(screw_, start.velocity_m_per_s, on_table, scale);
   }
   return {on_screw.force_N + on_table.force_N, on_screw.slope_Ns_per_m + on_table.slope_Ns_per_m, scale};
 }

@@ -2,7 +2,7 @@
 // A second mass: the table hangs on the screw by a spring with play, and carries the guide's friction.
 //
 //   d = x_screw - x_table,   e(d) = d beyond the gap (0 within),   U = k e^2 / 2
-//   M_L dv_t/dt = F - F_guide(v_t) - F_table,   F = dU/dd + c dd/dt while in contact, and F never pulls
+//   M_L dv_t/dt = F - F_guide(v_t) - F_table,   F = dU/dd + c dd/dt while in contact; beside a gap F never pulls
 //
 // Over a sub-step with the screw's mean velocity w and the table's w_t, s = h (w - w_t):
 //
@@ -16,7 +16,17 @@
 // so that the integrator sees a force with a bounded slope, whatever the stiffness. When the screw's real w is known the
 // table is settled again, so that it never ends up inside a flank.
 //
-// Where a sub-step is too long for the swing (omega h > 2), force and mean velocity lean towards the end of the sub-step,
+// Over a sub-step the mean force of a spring that swings is not that at the mean place, nor the mean velocity that of start
+// and end. As in plant/substep.h both are mended, here for the motion of screw against table, r = w - w_t, which starts with
+// r0 and has the reduced mass m and the frequency omega = sqrt(k / m):
+//
+//   w_t = (v_t + v_t') / 2 - kappa r,   F += - (2 kappa m / h) ((1 - kappa) r - r0)
+//   kappa = 1 - x cot x = x^2 / 3 + x^4 / 45 + ...,   x = omega h / 2
+//
+// The first term is the fourth-order Fox-Goodwin rule, all of them give the swing its exact frequency; and the energy of
+// spring and masses is kept exactly.
+//
+// Where a sub-step is too long for the swing (omega h > 2.8), force and mean velocity lean towards the end of the sub-step,
 // up to backward Euler: stable at any stiffness, and what that takes is counted as lost in the spring.
 
 #include <algorithm>
@@ -35,11 +45,6 @@ namespace feedtwin::plant {
           together(a.damping_Ns_per_m, b.damping_Ns_per_m)};
 }
 
-/// Spring force of the contact over a path, and its slopes.
-struct ContactForce {
-  double force_N, slope_Ns_per_m;
-};
-
 class Coupling {
  public:
   Coupling(const CouplingParameters& parameters, const AxisModel<double>& model) noexcept;
@@ -52,7 +57,7 @@ class Coupling {
   }
 
   /// Force on the screw over a sub-step. @param load what acts on the table beside guide and stops, at the predicted motion
-  [[nodiscard]] EffectLoad respond(const EffectMotion& screw, const EffectLoad& load,
+  [[nodiscard]] EffectLoad respond(const EffectMotion& screw, double screw_before_m_per_s, const EffectLoad& load,
                                    const FrictionScale<double>& scale) noexcept FEEDTWIN_REALTIME;
 
   /// The sub-step is over: the screw moved with this mean velocity. Returns the table's.
@@ -60,6 +65,14 @@ class Coupling {
 
   /// Force now, between nut and table.
   [[nodiscard]] double force_N(double screw_position_m, double screw_velocity_m_per_s) const noexcept FEEDTWIN_REALTIME;
+
+  /// That a tick of a millisecond takes for its swing: a flank that is hit asks for all.
+  [[nodiscard]] int substeps(int most) const noexcept {
+    constexpr double tick_s = 1e-3, largest_swing_rad = 2.6;
+    constexpr int least = 3;
+    const double wanted = std::ceil(std::sqrt(rate_squared_per_s2_) * tick_s / largest_swing_rad);
+    return half_gap_m_ > 0.0 || wanted > most ? most : std::min(most, std::max(least, static_cast<int>(wanted)));
+  }
 
   [[nodiscard]] double position_m() const noexcept { return position_m_; }
   [[nodiscard]] double velocity_m_per_s() const noexcept { return velocity_m_per_s_; }
@@ -76,33 +89,47 @@ class Coupling {
   [[nodiscard]] double bristle_J() const noexcept { return 0.5 * guide_.stiffness_N_per_m * bristle_m_ * bristle_m_; }
 
  private:
+  enum class Flank { changing, none, low, high };
+  /// Force of the contact over a sub-step and its slope by the rate; and what the swing adds to the mid-point rule.
+  struct ContactForce {
+    double force_N = 0.0, slope_Ns_per_m = 0.0, kappa = 0.0;
+    Flank flank = Flank::changing;
+  };
+  /// The table's mean velocity, and the contact there.
+  struct Settled {
+    double w, slope_Ns_per_m, kappa;
+  };
   struct Trial {
     double screw_x, screw_w, h_s;
-    double table_w;                 ///< linearised about
-    double settled_w;               ///< the table's, at screw_w
-    EffectLoad force;               ///< on the screw, about screw_w
-    double others_N, others_slope;  ///< inertia, guide, stops and loads of the table, about table_w
+    double rate_before;  ///< of the screw against the table, at the start of the sub-step
+    // what only the sub-step's length decides
+    double per_h_Hz;
+    double end_weight;                          ///< of the end velocity in the mean: 1/2 mid-point rule, 1 backward Euler
+    double inertia_Ns_per_m, reduced_Ns_per_m;  ///< of the table, and twice that of screw against table
+    double damping_Ns_per_m;
+    double quarter_square, resolved;  ///< (omega h / 2)^2; 1 while a sub-step resolves the swing, towards 0 the longer it is
+    double table_w;                   ///< linearised about
+    double settled_w;                 ///< the table's, at screw_w
+    EffectLoad force;                 ///< on the screw, about screw_w
+    double others_N, others_slope;    ///< inertia, guide, stops and loads of the table, about table_w
     LugreStep<double> guide;
     ExtraLoad<double> stop;
   };
   [[nodiscard]] double beyond_gap_m(double d_m) const noexcept {
     return std::max(d_m - half_gap_m_, 0.0) + std::min(d_m + half_gap_m_, 0.0);
   }
-  /// 0 while a sub-step resolves the swing (omega h <= 2), towards 1 the longer it is.
-  [[nodiscard]] double too_long(double h_s) const noexcept {
-    const double square = rate_squared_per_s2_ * h_s * h_s;
-    return square > 4.0 ? 1.0 - 4.0 / square : 0.0;
-  }
-  /// Weight of the end velocity in the mean: 1/2 is the mid-point rule, 1 backward Euler.
-  [[nodiscard]] double end_weight(double h_s) const noexcept { return 0.5 + 0.5 * too_long(h_s); }
-  [[nodiscard]] ContactForce contact(double d_m, double rate_m_per_s, double h_s) const noexcept;
+  void set_sub_step(double h_s) noexcept;
+  [[nodiscard]] Flank flank_at(double start_m, double rate_m_per_s) const noexcept;
+  [[nodiscard]] ContactForce contact(double rate_m_per_s) const noexcept;
+  [[nodiscard]] ContactForce swung(ContactForce contact, double bearing, double rate_m_per_s) const noexcept;
   void balance(double w_table, const EffectLoad& load, double load_at, const FrictionScale<double>& scale) noexcept;
-  [[nodiscard]] double settle(double screw_w, double table_w) noexcept;
+  [[nodiscard]] Settled settle(double screw_w, double table_w) const noexcept;
   /// Inertia, guide, stops and loads of the table at a mean velocity.
   [[nodiscard]] double table_side_N(double w) const noexcept {
     return trial_.others_N + trial_.others_slope * (w - trial_.table_w);
   }
 
+  static constexpr double longest_swing = 8.0;  ///< (omega h)^2
   CouplingParameters parameters_;
   double half_gap_m_, mass_kg_;
   double rate_squared_per_s2_;  ///< omega^2 of screw against table

@@ -15,6 +15,7 @@
 #include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/forward/second_look.h"
 #include "tools/diagnose/forward/sizes.h"
+#include "tools/diagnose/forward/stiffness.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/own_phase.h"
@@ -69,10 +70,13 @@ class Diagnosing {
   void explain() {
     found_ = search(fitter_, Bar{}, progress_);
     fit_ = found_.final;
+    settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
     const auto names_before = fit_.model.effects;
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    if (settled_ && !same_names(names_before))
+      settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
     const auto names_confirmed = fit_.model.effects;
-    settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_);
+    settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_, std::move(settled_));
     if (!same_names(names_confirmed)) ask_the_others_again();
     // a name that every unseen fold bears out stays, whatever else is left over
     const bool certain = std::ranges::any_of(found_.found, [](const Found& one) {

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "tools/recording/power_meter.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
@@ -10,13 +12,12 @@ constexpr std::size_t folds = 4;
 constexpr double stretch_s = 0.73;  // no motion repeats in step with it
 constexpr Index least_rows_a_column = 5;
 
-/// By direction of motion 1, v^2 and |v|; mechanical power, what of it flows back, force squared. (n x 8)
+/// What the drive's power is made of, row by row.
 Eigen::MatrixXd powers(const Track& track) {
   Eigen::MatrixXd all(track.size, 8);
   for (Index k = 0; k < track.size; ++k) {
-    const double v = track.metered_m_per_s[k], u = track.held_N[k];
-    const double forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth, mechanical = u * v;
-    all.row(k) << 1.0, forth * v, back * v, forth * v * v, back * v * v, mechanical, std::max(0.0, -mechanical), u * u;
+    const auto now = drive_powers(track.held_N[k], track.metered_m_per_s[k]);
+    all.row(k) = Eigen::Map<const Eigen::RowVectorXd>(now.data(), all.cols());
   }
   return all;
 }

@@ -199,6 +199,7 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
     const Vector before = columns.colwise().squaredNorm();
     if (!(before.maxCoeff() > 0.0)) return;
     Eigen::MatrixXd gram = columns.transpose() * columns - on_q.transpose() * on_q;
+    // where only the numbers' tolerance stands against it a ten-millionth may be left; less is rounding of the projection
     for (Index c = 0; c < count; ++c)
       if (!(gram(c, c) > 1e-11 * before[c])) gram(c, c) += 1e6 * (before[c] + 1e-30);  // nothing the model could not do
     const Eigen::LDLT<Eigen::MatrixXd> solver(gram);

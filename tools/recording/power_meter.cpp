@@ -9,17 +9,16 @@
 namespace feedtwin::tools {
 namespace {
 
-// idle, |v| and v^2 by direction, copper, work; work given back; work by what torque was, which is nearly a row's delay
+// what a drive's power is made of, at last the work given back; and work by what torque was, nearly a row's delay
 constexpr int own_laws = 7, laws = 9;
 using Laws = Eigen::Array<double, laws, 1>;
 
-/// What a tick's power may be made of (Eqs. 7 and 11, the copper loss that they leave out, the work of a torque that lags
-/// its command, and the work given back that a drive may burn).
+/// What a tick's power may be made of, with the work of a torque that lags its command.
 Laws laws_of(double torque_Nm, double torque_before_Nm, double v, double rad_per_m) {
-  const double forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth, work_W = torque_Nm * rad_per_m * v;
+  const auto drive = drive_powers(torque_Nm * rad_per_m, v);
   Laws all;
-  all << 1.0, forth * std::abs(v), back * std::abs(v), forth * v * v, back * v * v, torque_Nm * torque_Nm, work_W,
-      std::max(0.0, -work_W), (torque_Nm - torque_before_Nm) * rad_per_m * v;
+  std::ranges::copy(drive, all.begin());
+  all[laws - 1] = (torque_Nm - torque_before_Nm) * rad_per_m * v;
   return all;
 }
 
@@ -78,6 +77,11 @@ double unexplained(std::span<const Recording> recordings, MeterHabit habit, int 
 }
 
 }  // namespace
+
+std::array<double, 8> drive_powers(double force_N, double velocity_m_per_s) {
+  const double v = velocity_m_per_s, forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth, work_W = force_N * v;
+  return {1.0, forth * v, -back * v, forth * v * v, back * v * v, force_N * force_N, work_W, std::max(0.0, -work_W)};
+}
 
 MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_window) {
   MeteredPower meter;

@@ -212,6 +212,13 @@ TEST(Dynamics, ScrewCompliance) {
   EXPECT_LT(fine.rms_m, 0.1 * coarse.rms_m) << "second order: eight times the sub-steps, a sixty-fourth of the error";
 }
 
+TEST(Dynamics, AStiffScrewSwingsAtItsOwnFrequency) {
+  for (const double stiffness : {3e7, 6e7, 1.2e8, 2.4e8}) {  // 450 to 1270 Hz, with three or four sub-steps a tick
+    const auto error = pair_error({"screw_compliance", {stiffness, 1e3}, {}}, {0.0, stiffness, 1e3, {}}, one_count, 300);
+    EXPECT_LT(error.rms_m, 0.01 * error.stretch_m) << stiffness;
+  }
+}
+
 TEST(Dynamics, Backlash) {
   for (const double gap_m : {2e-6, 1e-5, 5e-5}) {
     const EffectSetting effect{"backlash", {gap_m, 6e7, 2e3}, {}};

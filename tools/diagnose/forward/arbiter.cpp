@@ -7,8 +7,6 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-/// Of 46 decisions on three challenge sets all beyond 80 nats were right, and two of three below were wrong.
-constexpr double clearly_nats = 100.0, clearly_deviations = 1.5;
 /// A rival that the inverse model finds this much worse, as a share of what the named one brings, is not simulated.
 constexpr double hopeless = 0.5;
 constexpr int iterations = 6;
@@ -58,10 +56,10 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   return false;
 }
 
-std::optional<Ruling> Arbiter::settle(SearchResult& found, Fit& fit) const {
-  if (found.found.empty()) return std::nullopt;
+std::optional<Ruling> Arbiter::settle(SearchResult& found, Fit& fit, std::optional<Ruling> before) const {
+  if (found.found.empty()) return before;
   constexpr int most_exchanges = 3;
-  Ruling now = rule(fit, forward_, fitter_);
+  Ruling now = before ? std::move(*before) : rule(fit, forward_, fitter_);
   std::vector<const Hypothesis*> beaten;
   int exchanges = 0;
   for (std::size_t e = 0; e < fit.model.effects.size();) {

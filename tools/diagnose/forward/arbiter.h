@@ -16,8 +16,9 @@ class Arbiter {
       : forward_(forward), fitter_(fitter), progress_(progress) {}
 
   /// Settles every named effect of the fit; what it changes is changed in both.
-  /// @return the fit's model as the closed loop has it; none where nothing was named
-  std::optional<Ruling> settle(SearchResult& found, Fit& fit) const;
+  /// @param before the fit's model as the closed loop has it, where it was asked already
+  /// @return likewise; where nothing is named, what it was given
+  std::optional<Ruling> settle(SearchResult& found, Fit& fit, std::optional<Ruling> before = {}) const;
 
  private:
   /// @param beaten were exchanged before and are not asked again

@@ -16,16 +16,6 @@ namespace {
 /// before.
 constexpr StandInSettings following{.bandwidth_rad_per_s = 75.0, .damping_ratio = 0.9, .filter_rad_per_s = 400.0};
 
-/// A screw that is too stiff to be a finding swings far beyond what a recording shows: one that only yields costs half.
-plant::Resolution resolution_of(const plant::AxisParameters& axis) {
-  plant::Resolution resolution = plant::one_count;
-  const auto spring = std::ranges::find(axis.effects, "screw_compliance", &plant::EffectSetting::id);
-  if (spring == axis.effects.end()) return resolution;
-  const Active yielding{&hypothesis(spring->id), {1.0 / spring->values.front()}};
-  if (!worth_naming(yielding)) resolution.swinging = 3;
-  return resolution;
-}
-
 /// Squares of residual and of signal about its mean.
 struct Squares {
   double residual = 0.0, signal = 0.0;
@@ -98,8 +88,8 @@ ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case&
 }
 
 Simulated ForwardModel::simulated(const ClosedLoopRun& run, const plant::AxisParameters& parameters) const {
-  plant::FeedAxis axis(without_stops(parameters), resolution_of(parameters));
   const auto& recording = run.recording();
+  plant::FeedAxis axis(without_stops(parameters));
   const bool sensors = recording.has(channel::torque_sensor_Nm) || recording.has(channel::force_sensor_N);
   Simulated made = simulate_closed_loop(run, axis, 0.0, sensors);
   if (recording.meter.instants) made.power_W.swap(made.instant_power_W);

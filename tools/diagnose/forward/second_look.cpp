@@ -18,7 +18,6 @@ constexpr double least_gain = 50.0;                      // by the inverse model
 constexpr double beyond_noise = 2.0;                     // a channel that is worth the question
 constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
-constexpr double clearly_nats = 100.0;  // better than what it is easily confused with, as where the inverse model asked
 // what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
 constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder

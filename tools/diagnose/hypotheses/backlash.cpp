@@ -1,4 +1,5 @@
-// Backlash: the nut follows the screw with a play of gap; the scale shows the play operator.
+// Backlash: the nut follows the screw with a play of gap, and its flank gives by F / k, F the force on the table; the scale
+// shows both.
 
 #include <algorithm>
 #include <cmath>
@@ -9,25 +10,26 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double contact_N_per_m = 6e7, contact_Ns_per_m = 2e3;  ///< of the closed flanks, to begin with
+constexpr double contact_Ns_per_m = 2e3;  ///< of the closed flanks, to begin with
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   constexpr double pressing_N = 0.5;  // the force sensor then tells which flank bears
   const bool felt = track.force_sensor_N.size() > 0;
+  const Vector force = force_on_table(view);
   Vector slip(track.size);
   double table = track.position_m[0];
   for (Index k = 0; k < track.size; ++k) {
     table = std::clamp(table, track.position_m[k] - 0.5 * q[0], track.position_m[k] + 0.5 * q[0]);
     if (felt && std::abs(track.force_sensor_N[k]) > pressing_N)
       table = track.position_m[k] - std::copysign(0.5 * q[0], track.force_sensor_N[k]);
-    slip[k] = table - track.position_m[k];
+    slip[k] = table - track.position_m[k] - q[1] * force[k];
   }
   add(sum.slip_m, slip);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"gap_m", q[0]}, {"stiffness_N_per_m", std::exp(q[1])}, {"damping_Ns_per_m", std::exp(q[2])}};
+  return {{"gap_m", q[0]}, {"stiffness_N_per_m", 1.0 / std::max(q[1], 1e-12)}, {"damping_Ns_per_m", std::exp(q[2])}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -42,9 +44,9 @@ Hypothesis backlash() {
           .channel = "scale_position_m",
           .where = Where::reversal,
           .parameters = {{"gap_m", Kind::amplitude, 1e-7, 0.0, 1e-3},
-                         {"log_stiffness", Kind::simulated, 1e-2, std::log(1e7), std::log(1e9)},
+                         {"compliance_m_per_N", Kind::amplitude, 1e-9, 1e-9, 1e-7},
                          {"log_damping", Kind::simulated, 1e-2, std::log(1e2), std::log(1e5)}},
-          .shapes = {{std::log(contact_N_per_m), std::log(contact_Ns_per_m)}},
+          .shapes = {{std::log(contact_Ns_per_m)}},
           .apply = apply,
           .named = named,
           .admissible = possible,

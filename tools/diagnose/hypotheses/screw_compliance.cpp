@@ -10,11 +10,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const Track& track = view.track;
-  const Vector force = track.force_sensor_N.size() > 0
-                           ? track.force_sensor_N
-                           : Vector(view.base.guide_N + view.axis.guide_mass_kg * track.table_acceleration_m_per_s2);
-  add(sum.slip_m, -q[0] * force);
+  add(sum.slip_m, -q[0] * force_on_table(view));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

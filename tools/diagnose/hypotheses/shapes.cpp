@@ -39,6 +39,12 @@ Vector wave(const Vector& x, double period, double order, double sine, double co
   return out;
 }
 
+Vector force_on_table(const View& view) {
+  const Track& track = view.track;
+  if (track.force_sensor_N.size() > 0) return track.force_sensor_N;
+  return view.base.guide_N + view.axis.guide_mass_kg * track.table_acceleration_m_per_s2;
+}
+
 Vector delayed(const Vector& values, double samples) {
   Vector out(values.size());
   const double last = static_cast<double>(values.size() - 1);

@@ -15,6 +15,8 @@ namespace feedtwin::tools::diagnosis {
 
 /// sine sin(2 pi n x / period) + cosine cos(...)
 [[nodiscard]] Vector wave(const Vector& x, double period, double order, double sine, double cosine);
+/// What screw and table press on each other with, N: as the force sensor shows it, otherwise as the model has it.
+[[nodiscard]] Vector force_on_table(const View& view);
 /// Later by a number of samples, which need not be whole; linear between samples. Negative: earlier.
 [[nodiscard]] Vector delayed(const Vector& values, double samples);
 /// First-order lag of a number of samples.
