@@ -73,8 +73,7 @@ class Diagnosing {
     settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
     const auto names_before = fit_.model.effects;
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
-    if (settled_ && !same_names(names_before))
-      settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
+    if (settled_ && !same_names(names_before)) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
     const auto names_confirmed = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_, std::move(settled_));
     if (!same_names(names_confirmed)) ask_the_others_again();

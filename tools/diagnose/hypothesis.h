@@ -46,6 +46,9 @@ struct Contribution {
 /// Runs that a line has a phase of its own in; any further one shares the last one's.
 inline constexpr std::size_t line_runs = 4;
 
+/// Of a screw, its nut and bearings against the table: to begin with, until the closed loop has it.
+inline constexpr double screw_damping_Ns_per_m = 2e3;
+
 /// How a working parameter enters.
 enum class Kind {
   amplitude,  ///< the effect vanishes with all its amplitudes

@@ -32,8 +32,8 @@ const std::map<std::string_view, Trial>& trials() {
       {"cogging", {{{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}, {"phase_rad", 0.7}}, {0, 0, 8}}},
       {"torque_ripple", {{{"relative_amplitude", 0.05}, {"cycles_per_rev", 6.0}, {"phase_rad", -1.1}}, {0, 0, 6}}},
       {"rev_ripple", {{{"amplitude_N", 5.0}, {"cycles_per_rev", 3.37}, {"phase_rad", 2.0}}, {0, 0, 3.375}}},
-      {"backlash", {{{"gap_m", 6e-6}, {"stiffness_N_per_m", 6e7}}, {0, 0, std::log(2e3)}}},
-      {"screw_compliance", {{{"stiffness_N_per_m", 3e7}}, {0}}},
+      {"backlash", {{{"gap_m", 6e-6}}, {0, 0, std::log(2e3)}, 0.06}},  // the flank swings: a start for the closed loop
+      {"screw_compliance", {{{"stiffness_N_per_m", 3e7}}, {0, std::log(2e3)}}},
       {"position_friction", {{{"relative_slope_per_half_stroke", -0.4}}, {0}}},
       {"copper_loss", {{{"coefficient_W_per_Nm2", 15.0}}, {0}, 0.06, true, true}},
       {"payload", {{{"mass_kg", 3.0}}, {0}, 0.03, true, true}},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "tools/diagnose/forward/extended_axis.h"
@@ -11,10 +12,9 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int iterations = 6;
-
 /// 500 to 25 N/um. A swing's phase tells one from the next, so they are close.
-constexpr std::array compliances_m_per_N{2e-9, 2.6e-9, 3.4e-9, 4.4e-9, 5.7e-9, 7.4e-9, 9.6e-9, 1.3e-8, 1.7e-8, 2.2e-8, 2.9e-8, 4e-8};
+constexpr std::array compliances_m_per_N{2e-9,   2.6e-9, 3.4e-9, 4.4e-9, 5.7e-9, 7.4e-9,
+                                         9.6e-9, 1.3e-8, 1.7e-8, 2.2e-8, 2.9e-8, 4e-8};
 
 bool can_be_told(const Fitter& fitter, const Candidate& model) {
   const auto& track = fitter.model().tracks().front();
@@ -27,21 +27,21 @@ std::pair<Candidate, double> on_likeliest_screw(const ForwardModel& forward, con
   const double rigid = likelihood(forward, extended(model)).total();
   Candidate best = model, other = model;
   double nats = 0.0;
-  other.effects.push_back({&hypothesis("screw_compliance"), {0.0}});
+  other.effects.push_back({&hypothesis("screw_compliance"), {0.0, std::log(screw_damping_Ns_per_m)}});
   for (const double compliance : compliances_m_per_N) {
-    other.effects.back().q = {compliance};
+    other.effects.back().q.front() = compliance;
     const double more = likelihood(forward, extended(other)).total() - rigid;
     if (more > nats) nats = more, best = other;
   }
   return {best, nats};
 }
 
-/// Without the name of a late sensor, which is what a screw that yields looks like.
-Fit without_late_sensor(const Fitter& fitter, const SearchResult& found, const Fit& fit) {
-  for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
-    if (fit.model.effects[e].hypothesis == &hypothesis("channel_skew"))
-      return fitter.fit(without(fit.model, e), found.whitening, iterations);
-  return fit;
+/// Without the name of a late sensor, which is what a screw that yields looks like. The numbers stay as they are with it:
+/// read without, the one body of the inverse model bends them to the swing, mass first.
+Candidate without_late_sensor(const Candidate& model) {
+  for (std::size_t e = 0; e < model.effects.size(); ++e)
+    if (model.effects[e].hypothesis == &hypothesis("channel_skew")) return without(model, e);
+  return model;
 }
 
 }  // namespace
@@ -49,8 +49,8 @@ Fit without_late_sensor(const Fitter& fitter, const SearchResult& found, const F
 std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                                     const std::function<void(std::string_view)>& progress) {
   if (!can_be_told(fitter, fit.model)) return std::nullopt;
-  const Fit punctual = without_late_sensor(fitter, found, fit);
-  const auto [start, nats] = on_likeliest_screw(forward, punctual.model);
+  const Candidate punctual = without_late_sensor(fit.model);
+  const auto [start, nats] = on_likeliest_screw(forward, punctual);
   if (nats < clearly_nats) return std::nullopt;
   Ruling yielding = rule(fitter.linearised(start, found.whitening), forward, fitter), rigid = rule(fit, forward, fitter);
   const auto difference = compared(yielding.likelihood, rigid.likelihood);
@@ -59,7 +59,7 @@ std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& f
   progress(fmt::format("closed loop, on a screw of {:.3g} N/m: {:+.0f} nats, {:+.1f} deviations", stiffness, better,
                        difference.deviations));
   if (better < clearly_nats || difference.deviations < clearly_deviations) return rigid;
-  if (punctual.model.effects.size() < fit.model.effects.size()) {
+  if (punctual.effects.size() < fit.model.effects.size()) {
     progress("the screw yields: the force sensor is not late");
     std::erase_if(found.found, [](const Found& one) { return one.effect.hypothesis == &hypothesis("channel_skew"); });
   }

@@ -11,7 +11,7 @@
 namespace feedtwin::tools::diagnosis {
 
 /// Gives the model a screw that yields, where in closed loop the runs are clearly likelier with it; the name of a late force
-/// sensor goes where they are no less so without. It is told only where it yields so much that it is a finding.
+/// sensor goes where they are. The stiffness itself is not told: by its swing alone one is easily taken for another.
 /// @return the fit's model as the closed loop has it; none where it was not asked
 std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                                     const std::function<void(std::string_view)>& progress);

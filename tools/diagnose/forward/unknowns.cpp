@@ -36,7 +36,10 @@ FitParameter of_effect(const Active& effect, std::size_t j) {
 }  // namespace
 
 Unknowns::Unknowns(const Fitter& fitter, const Candidate& start)
-    : fitter_(fitter), start_(start), force_recorded_(fitter.model().tracks().front().force_sensor_N.size() > 0 && fitter.model().tracks().front().slip_m.size() > 0) {}
+    : fitter_(fitter),
+      start_(start),
+      force_recorded_(fitter.model().tracks().front().force_sensor_N.size() > 0 &&
+                      fitter.model().tracks().front().slip_m.size() > 0) {}
 
 bool Unknowns::moves(const WorkingParameter& p) const {
   return p.kind != Kind::fixed && !(p.by_force_sensor && force_recorded_);

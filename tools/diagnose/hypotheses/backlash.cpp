@@ -10,8 +10,6 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double contact_Ns_per_m = 2e3;  ///< of the closed flanks, to begin with
-
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   constexpr double pressing_N = 0.5;  // the force sensor then tells which flank bears
@@ -46,7 +44,7 @@ Hypothesis backlash() {
           .parameters = {{"gap_m", Kind::amplitude, 1e-7, 0.0, 1e-3},
                          {"compliance_m_per_N", Kind::amplitude, 1e-9, 1e-9, 1e-7},
                          {"log_damping", Kind::simulated, 1e-2, std::log(1e2), std::log(1e5)}},
-          .shapes = {{std::log(contact_Ns_per_m)}},
+          .shapes = {{std::log(screw_damping_Ns_per_m)}},
           .apply = apply,
           .named = named,
           .admissible = possible,

@@ -14,7 +14,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"stiffness_N_per_m", 1.0 / std::max(q[0], 1e-12)}};
+  return {{"stiffness_N_per_m", 1.0 / std::max(q[0], 1e-12)}, {"damping_Ns_per_m", std::exp(q[1])}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -33,8 +33,9 @@ Hypothesis screw_compliance() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::time,
-          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1.2e-7, true}},
-          .shapes = {{}},
+          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1.2e-7, true},
+                         {"log_damping", Kind::simulated, 1e-2, std::log(1e2), std::log(1e5)}},
+          .shapes = {{std::log(screw_damping_Ns_per_m)}},
           .apply = apply,
           .named = named,
           .admissible = possible,

@@ -1,0 +1,63 @@
+// A screw whose stiffness only the force sensor shows is not called a late sensor, and a rigid one is left alone.
+
+#include "tools/diagnose/forward/stiffness.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/made_case.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+struct Asked {
+  SearchResult found;
+  Fit fit;
+  std::optional<Ruling> settled;
+};
+
+/// An axis with these effects, recorded with force and torque sensors and without a scale, where the search named a late
+/// force sensor.
+Asked asked_of(const std::vector<plant::EffectSetting>& effects) {
+  auto truth = plant::source_axis();
+  truth.effects = effects;
+  tools::Case data = tests::short_case(truth, plant::source_axis());
+  tests::MadeRun run{.motion = "s_curve", .duration_s = 3.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+  run.settings = {.amplitude_m = 0.02, .speed_m_per_s = 0.1, .acceleration_m_per_s2 = 8.0, .jerk_m_per_s3 = 2000.0};
+  data.fit = {tests::make_recording(truth, run)};
+  for (auto& recording : data.fit) recording.channels.erase("scale_position_m");
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Fitter fitter(model, data.axis);
+  const Active late{&hypothesis("channel_skew"), {0.0, 3e-4}};
+  Asked asked;
+  asked.found.whitening = fitter.colour_of(model.residual(data.axis, {}));
+  asked.fit = fitter.fit_with_colour({data.axis, {late}}, asked.found.whitening, 2, 6);
+  asked.found.found.emplace_back();
+  asked.found.found.back().effect = asked.fit.model.effects.front();
+  const ForwardModel forward(data.fit, data);
+  asked.settled = ask_how_stiff(forward, fitter, asked.found, asked.fit, [](std::string_view) {});
+  return asked;
+}
+
+TEST(AskHowStiff, AScrewThatYieldsIsNoLateSensor) {
+  const auto asked = asked_of({tests::effect("screw_compliance", {{"stiffness_N_per_m", 1.7e8}})});
+  EXPECT_TRUE(asked.found.found.empty());
+  ASSERT_EQ(asked.fit.model.effects.size(), 1U);
+  EXPECT_EQ(asked.fit.model.effects[0].hypothesis->id, "screw_compliance");
+  EXPECT_NEAR(1.0 / asked.fit.model.effects[0].q[0], 1.7e8, 0.03 * 1.7e8);
+  EXPECT_FALSE(worth_naming(asked.fit.model.effects[0]));
+  ASSERT_TRUE(asked.settled.has_value());
+  EXPECT_EQ(asked.settled->model.effects.size(), 1U);
+}
+
+TEST(AskHowStiff, ALateSensorOnARigidScrewStaysLate) {
+  const auto asked = asked_of({tests::effect("channel_skew", {{"force_sensor_delay_s", 1.4e-3}})});
+  ASSERT_EQ(asked.found.found.size(), 1U);
+  ASSERT_EQ(asked.fit.model.effects.size(), 1U);
+  EXPECT_EQ(asked.fit.model.effects[0].hypothesis->id, "channel_skew");
+  EXPECT_NEAR(asked.fit.model.effects[0].q[1], 1.4e-3, 1e-4);
+}
+
+}  // namespace
+}  // namespace feedtwin
