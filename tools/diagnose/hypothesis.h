@@ -97,6 +97,8 @@ struct Hypothesis {
   /// challenge cases, seen on held-out runs, right names made 1.048 and more, a third of the wrong ones less than 1.02; what
   /// laps of EMPS that nobody fitted bear out made 1.018 and 1.020.
   double least_error_ratio = 1.015;
+  /// And in closed loop, all other numbers free, the runs must be so many nats less likely.
+  double least_missed_nats = -1e300;
   bool only_readings = false;    ///< changes what the sensors show and nothing else: only their channels bear it out
   bool about_reversals = false;  ///< acts there first: its strength counts there too
   /// Is this size a finding? Smaller ones stay in the model as nuisances, since they explain how the channels read.

@@ -17,9 +17,9 @@ struct Asked {
   std::optional<Ruling> settled;
 };
 
-/// An axis with these effects, recorded with force and torque sensors and without a scale, where the search named a late
-/// force sensor.
-Asked asked_of(const std::vector<plant::EffectSetting>& effects) {
+/// An axis with these effects, recorded with force and torque sensors and without a scale, where the search named late
+/// sensors. @param rounds of fitting their delays and the nominal numbers; 0: as given
+Asked asked_of(const std::vector<plant::EffectSetting>& effects, const std::vector<double>& late_s, int rounds) {
   auto truth = plant::source_axis();
   truth.effects = effects;
   tools::Case data = tests::short_case(truth, plant::source_axis());
@@ -29,10 +29,10 @@ Asked asked_of(const std::vector<plant::EffectSetting>& effects) {
   for (auto& recording : data.fit) recording.channels.erase("scale_position_m");
   const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
-  const Active late{&hypothesis("channel_skew"), {0.0, 3e-4}};
+  const Active late{&hypothesis("channel_skew"), late_s};
   Asked asked;
   asked.found.whitening = fitter.colour_of(model.residual(data.axis, {}));
-  asked.fit = fitter.fit_with_colour({data.axis, {late}}, asked.found.whitening, 2, 6);
+  asked.fit = fitter.fit_with_colour({data.axis, {late}}, asked.found.whitening, rounds, 6);
   asked.found.found.emplace_back();
   asked.found.found.back().effect = asked.fit.model.effects.front();
   const ForwardModel forward(data.fit, data);
@@ -41,7 +41,7 @@ Asked asked_of(const std::vector<plant::EffectSetting>& effects) {
 }
 
 TEST(AskHowStiff, AScrewThatYieldsIsNoLateSensor) {
-  const auto asked = asked_of({tests::effect("screw_compliance", {{"stiffness_N_per_m", 1.7e8}})});
+  const auto asked = asked_of({tests::effect("screw_compliance", {{"stiffness_N_per_m", 1.7e8}})}, {0.0, 3e-4}, 2);
   EXPECT_TRUE(asked.found.found.empty());
   ASSERT_EQ(asked.fit.model.effects.size(), 1U);
   EXPECT_EQ(asked.fit.model.effects[0].hypothesis->id, "screw_compliance");
@@ -51,8 +51,19 @@ TEST(AskHowStiff, AScrewThatYieldsIsNoLateSensor) {
   EXPECT_EQ(asked.settled->model.effects.size(), 1U);
 }
 
+TEST(AskHowStiff, ALateTorqueSensorStaysLateOnAScrewThatYields) {
+  const auto asked = asked_of({tests::effect("screw_compliance", {{"stiffness_N_per_m", 1.7e8}}),
+                               tests::effect("channel_skew", {{"torque_sensor_delay_s", 4e-3}})},
+                              {3.9e-3, 1.4e-3}, 0);
+  ASSERT_EQ(asked.found.found.size(), 1U);
+  ASSERT_EQ(asked.fit.model.effects.size(), 2U);
+  EXPECT_NEAR(asked.fit.model.effects[0].q[0], 4e-3, 1e-4);
+  EXPECT_NEAR(asked.fit.model.effects[0].q[1], 0.0, 2e-4);
+  EXPECT_EQ(asked.fit.model.effects[1].hypothesis->id, "screw_compliance");
+}
+
 TEST(AskHowStiff, ALateSensorOnARigidScrewStaysLate) {
-  const auto asked = asked_of({tests::effect("channel_skew", {{"force_sensor_delay_s", 1.4e-3}})});
+  const auto asked = asked_of({tests::effect("channel_skew", {{"force_sensor_delay_s", 1.4e-3}})}, {0.0, 3e-4}, 2);
   ASSERT_EQ(asked.found.found.size(), 1U);
   ASSERT_EQ(asked.fit.model.effects.size(), 1U);
   EXPECT_EQ(asked.fit.model.effects[0].hypothesis->id, "channel_skew");

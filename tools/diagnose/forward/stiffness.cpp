@@ -36,11 +36,15 @@ std::pair<Candidate, double> on_likeliest_screw(const ForwardModel& forward, con
   return {best, nats};
 }
 
-/// Without the name of a late sensor, which is what a screw that yields looks like. The numbers stay as they are with it:
-/// read without, the one body of the inverse model bends them to the swing, mass first.
-Candidate without_late_sensor(const Candidate& model) {
-  for (std::size_t e = 0; e < model.effects.size(); ++e)
-    if (model.effects[e].hypothesis == &hypothesis("channel_skew")) return without(model, e);
+/// With a force sensor that is not late, which is what a screw that yields looks like; a torque sensor may be. The numbers
+/// stay as they are: read anew, the one body of the inverse model bends them to the swing, mass first.
+Candidate with_punctual_force_sensor(Candidate model) {
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    Active& skew = model.effects[e];
+    if (skew.hypothesis != &hypothesis("channel_skew")) continue;
+    skew.q.back() = 0.0;
+    return worth_naming(skew) ? model : without(model, e);
+  }
   return model;
 }
 
@@ -49,7 +53,7 @@ Candidate without_late_sensor(const Candidate& model) {
 std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                                     const std::function<void(std::string_view)>& progress) {
   if (!can_be_told(fitter, fit.model)) return std::nullopt;
-  const Candidate punctual = without_late_sensor(fit.model);
+  const Candidate punctual = with_punctual_force_sensor(fit.model);
   const auto [start, nats] = on_likeliest_screw(forward, punctual);
   if (nats < clearly_nats) return std::nullopt;
   Ruling yielding = rule(fitter.linearised(start, found.whitening), forward, fitter), rigid = rule(fit, forward, fitter);
@@ -63,7 +67,7 @@ std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& f
     progress("the screw yields: the force sensor is not late");
     std::erase_if(found.found, [](const Found& one) { return one.effect.hypothesis == &hypothesis("channel_skew"); });
   }
-  yielding.fit.model.effects.back() = yielding.model.effects.back();
+  yielding.fit.model.effects = yielding.model.effects;
   fit = yielding.fit;
   return yielding;
 }
