@@ -147,6 +147,7 @@ class Diagnosing {
       if (now != fit_.model.effects.end() && worth_naming(*now))
         result_.effects.push_back(named_effect(one, fit_, covariance_, model_));
     }
+    tell_as_one_lead(result_);
     result_.recalibrated = recalibrated(fitter_, fit_, covariance_);
     auto ways = ways_of(fit_.model);
     if (result_.effects.empty()) ways.push_back(extended(found_.recalibrated.model)), ways.push_back(data_.axis);

@@ -31,6 +31,7 @@ struct NamedEffect {
   std::vector<std::pair<double, double>> intervals;  ///< where it acts
   double share = 0.0, p_false_alarm = 1.0;
   std::vector<std::string> alternatives;
+  bool by_closed_loop = false;  ///< told by the simulated motion: in the inverse model the numbers take it up
 };
 
 struct Recalibrated {

@@ -4,6 +4,7 @@
 // registry.
 
 #include <complex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,8 +63,6 @@ struct WorkingParameter {
   Kind kind = Kind::amplitude;
   double step = 1e-3;  ///< for differences: small against any value that matters
   double lowest = -1e30, highest = 1e30;
-  /// Where the force is recorded that tells it: along a simulated motion, whose jerks are others, it comes out too small.
-  bool by_force_sensor = false;
 };
 
 /// A parameter as it is reported and as an axis file holds it.
@@ -115,7 +114,10 @@ struct Hypothesis {
   std::vector<std::vector<double>> starts = {};
   /// Where the closed loop starts from when the inverse model finds no possible size, which it then can say little about;
   /// none: it is not asked then.
-  std::vector<double> closed_loop_start = {};
+  std::vector<std::vector<double>> closed_loop_starts = {};
+  /// Of what the numbers take up nearly all of in the inverse model: told where in closed loop, all numbers free, the runs
+  /// are so many nats likelier, however little closer a channel comes.
+  std::optional<double> told_by_runs_nats = std::nullopt;
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 

@@ -120,6 +120,7 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
     if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, covariance, e);
   effect.share = one.share;
   effect.p_false_alarm = one.p_false_alarm;
+  effect.by_closed_loop = one.by_closed_loop;
   effect.intervals = acts_in(effect, model);
   for (const auto* rival : one.rivals) effect.alternatives.emplace_back(rival->id);
   const auto beside = std::string(effect.hypothesis->always_beside);
@@ -131,6 +132,14 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
     effect.sentence += phases_agree(*now) ? " All runs share its phase."
                                           : " Each run has a phase of its own; a held-out run's is taken from that run.";
   return effect;
+}
+
+void tell_as_one_lead(Diagnosis& result) {
+  const auto mended = std::ranges::find(result.setup, "wrong_lead", &SetupFault::id);
+  const auto left = std::ranges::find(result.effects, &hypothesis("lead_error"), &NamedEffect::hypothesis);
+  if (mended == result.setup.end() || left == result.effects.end()) return;
+  mended->parameters.front().value *= 1.0 + left->parameters.front().second.value;
+  result.effects.erase(left);
 }
 
 }  // namespace feedtwin::tools::diagnosis

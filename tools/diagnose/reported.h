@@ -9,6 +9,9 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance,
                                        const InverseModel& model);
 
+/// A lead that the set-up check has mended: what is left of its error is told with it, not as another finding.
+void tell_as_one_lead(Diagnosis& result);
+
 /// The nominal numbers that the data move beyond their own uncertainty.
 [[nodiscard]] std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit,
                                                      const Eigen::MatrixXd& covariance);

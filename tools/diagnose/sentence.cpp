@@ -12,6 +12,12 @@ std::string told(const Estimate& estimate) {
   return fmt::format("{:.4g} ({:.4g} to {:.4g})", estimate.value, estimate.low, estimate.high);
 }
 
+std::string how_much(const NamedEffect& effect) {
+  if (effect.by_closed_loop)
+    return "Other numbers of the model can imitate its force; the simulated motion tells it from them";
+  return fmt::format("It makes {:.0f} % of what the recalibrated model leaves over", 100.0 * effect.share);
+}
+
 std::string list_of(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -27,10 +33,8 @@ std::string sentence_of(const NamedEffect& effect) {
   }
   for (auto at = text.find('{'); at != std::string::npos; at = text.find('{'))
     text.replace(at, text.find('}', at) + 1 - at, "(not told by these data)");
-  text = fmt::format(
-      "{}: {}. It makes {:.0f} % of what the recalibrated model leaves over; chance of a false alarm over all "
-      "hypotheses {:.1g}.",
-      effect.hypothesis->component, text, 100.0 * effect.share, std::max(1e-6, effect.p_false_alarm));
+  text = fmt::format("{}: {}. {}; chance of a false alarm over all hypotheses {:.1g}.", effect.hypothesis->component, text,
+                     how_much(effect), std::max(1e-6, effect.p_false_alarm));
   std::vector<std::string> ruled_out;
   for (const auto other : effect.hypothesis->confused_with)
     if (std::ranges::find(effect.alternatives, other) == effect.alternatives.end()) ruled_out.emplace_back(other);

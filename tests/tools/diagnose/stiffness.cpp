@@ -17,16 +17,19 @@ struct Asked {
   std::optional<Ruling> settled;
 };
 
-/// An axis with these effects, recorded with force and torque sensors and without a scale, where the search named late
-/// sensors. @param rounds of fitting their delays and the nominal numbers; 0: as given
-Asked asked_of(const std::vector<plant::EffectSetting>& effects, const std::vector<double>& late_s, int rounds) {
+/// An axis with these effects, recorded with force and torque sensors and without a scale (unless one is asked for), where
+/// the search named late sensors. @param rounds of fitting their delays and the nominal numbers; 0: as given
+Asked asked_of(const std::vector<plant::EffectSetting>& effects, const std::vector<double>& late_s, int rounds,
+               bool scale = false) {
   auto truth = plant::source_axis();
   truth.effects = effects;
   tools::Case data = tests::short_case(truth, plant::source_axis());
-  tests::MadeRun run{.motion = "s_curve", .duration_s = 3.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+  tests::MadeRun run{
+      .motion = "s_curve", .duration_s = 3.0, .scale_at_table = scale, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
   run.settings = {.amplitude_m = 0.02, .speed_m_per_s = 0.1, .acceleration_m_per_s2 = 8.0, .jerk_m_per_s3 = 2000.0};
   data.fit = {tests::make_recording(truth, run)};
-  for (auto& recording : data.fit) recording.channels.erase("scale_position_m");
+  if (!scale)
+    for (auto& recording : data.fit) recording.channels.erase("scale_position_m");
   const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
   const Active late{&hypothesis("channel_skew"), late_s};
@@ -49,6 +52,13 @@ TEST(AskHowStiff, AScrewThatYieldsIsNoLateSensor) {
   EXPECT_FALSE(worth_naming(asked.fit.model.effects[0]));
   ASSERT_TRUE(asked.settled.has_value());
   EXPECT_EQ(asked.settled->model.effects.size(), 1U);
+}
+
+TEST(AskHowStiff, StartsFromTheComplianceThatAScaleShows) {
+  const auto asked = asked_of({tests::effect("screw_compliance", {{"stiffness_N_per_m", 3.2e8}})}, {0.0, 3e-4}, 2, true);
+  ASSERT_EQ(asked.fit.model.effects.size(), 1U);
+  EXPECT_EQ(asked.fit.model.effects[0].hypothesis->id, "screw_compliance");
+  EXPECT_NEAR(1.0 / asked.fit.model.effects[0].q[0], 3.2e8, 0.03 * 3.2e8);
 }
 
 TEST(AskHowStiff, ALateTorqueSensorStaysLateOnAScrewThatYields) {

@@ -8,18 +8,19 @@
 #include <optional>
 
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/questions.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int iterations = 6, most_names = 2;
-constexpr std::size_t most_asked = 4;
-constexpr double least_gain = 50.0;                      // by the inverse model
+constexpr int iterations = 6, most_names = 2, most_rounds = 4;
 constexpr double beyond_noise = 2.0;                     // a channel that is worth the question
 constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
 // what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
 constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
+constexpr double glance_share = 0.3;          // of the nats that tell it: what a glance must promise
+constexpr double of_consequence_nats = 10.0;  // of a polish
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
 constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
 
@@ -40,21 +41,6 @@ Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, bool 
   return best;
 }
 
-/// What the inverse model would welcome, the most welcome first; and what it can say little about.
-std::vector<Score> questions(const Screen& left, const Candidate& model) {
-  std::vector<Score> asked, untold;
-  for (const auto& score : left.scores) {
-    const Hypothesis& h = *score.hypothesis;
-    if (has(model, h)) continue;
-    if (!h.closed_loop_start.empty()) untold.push_back(score);
-    // what friction does at reversals is also what one bristle cannot do of any friction
-    else if (!(h.about_reversals && h.component != "drive") && score.gain > least_gain && asked.size() < most_asked)
-      asked.push_back(score);
-  }
-  asked.insert(asked.end(), untold.begin(), untold.end());
-  return asked;
-}
-
 /// Of as many deviations in any of the hypotheses: what the closed loop names, it vouches for.
 double chance_of(double deviations) {
   return std::min(1.0, 0.5 * std::erfc(deviations / std::numbers::sqrt2) * static_cast<double>(hypotheses().size()));
@@ -72,12 +58,14 @@ class SecondLook {
     if (asked.empty()) return false;
     floor_ = forward_.noise_floor(extended(model));
     if (!is_off(forward_.nrmse(extended(model)))) return false;
-    settled = settled ? rule_again(*settled, forward_, fitter_, SlopesOf::before) : rule(fit, forward_, fitter_);
+    settled =
+        polished_out(settled ? rule_again(*settled, forward_, fitter_, SlopesOf::before) : rule(fit, forward_, fitter_));
     errors_ = forward_.nrmse(extended(settled->model));
     if (!is_off(errors_)) return false;
     std::vector<Answer> answers;
-    for (const auto& score : asked)
-      if (auto one = answer(score, *settled, found.whitening, fit)) answers.push_back(std::move(*one));
+    for (const auto& question : asked)
+      if (worth_asking(question, *settled))
+        if (auto one = answer(question, *settled, found.whitening, fit)) answers.push_back(std::move(*one));
     std::ranges::stable_sort(answers, std::greater{}, [](const Answer& a) { return a.ruling.value; });
     auto best = std::ranges::find(answers, true, &Answer::enough);
     if (best == answers.end()) return false;
@@ -104,6 +92,17 @@ class SecondLook {
     bool enough;  ///< to be named
   };
 
+  /// As far as polishing goes: what it has still to gain would be put down to the effect that is asked about.
+  [[nodiscard]] Ruling polished_out(Ruling now) const {
+    for (int round = 0; round < most_rounds; ++round) {
+      Ruling further = rule_again(now, forward_, fitter_, SlopesOf::anew);
+      const bool done = further.value - now.value < of_consequence_nats;
+      now = std::move(further);
+      if (done) break;
+    }
+    return now;
+  }
+
   /// What is easily confused with the best of the answers, and does as well, takes its place or stands beside it.
   [[nodiscard]] std::vector<const Hypothesis*> settled_against_others(std::vector<Answer>& answers,
                                                                       std::vector<Answer>::iterator best) const {
@@ -122,14 +121,26 @@ class SecondLook {
     return std::ranges::any_of(errors, [&](const auto& e) { return e.second > beyond_noise * floor_.at(e.first); });
   }
 
+  /// What the numbers take up in the inverse model: a few steps along their known slopes tell whether to ask at all.
+  [[nodiscard]] bool worth_asking(const Question& question, const Ruling& now) const {
+    const Hypothesis& h = *question.score.hypothesis;
+    if (!h.told_by_runs_nats) return true;
+    Fit with = now.fit;
+    with.model = now.model;
+    with.model.effects.push_back({&h, question.start});
+    const Ruling glance = rule_beside(now, with, forward_, fitter_, SlopesOf::before);
+    return glance.value - now.value > glance_share * *h.told_by_runs_nats;
+  }
+
   /// The closed loop with one effect more; nothing where that is not the answer.
-  [[nodiscard]] std::optional<Answer> answer(const Score& score, const Ruling& now, const Whitening& whitening,
+  [[nodiscard]] std::optional<Answer> answer(const Question& question, const Ruling& now, const Whitening& whitening,
                                              const Fit& fit) const {
+    const Score& score = question.score;
     Fit with = fit_with(fitter_, fit.model, score, fit.model.effects.size(), whitening, iterations);
     Active& effect = with.model.effects.back();
-    if (!can_be_named(effect, with.model.axis)) {
-      if (score.hypothesis->closed_loop_start.empty()) return std::nullopt;
-      effect.q = score.hypothesis->closed_loop_start;
+    if (score.hypothesis->told_by_runs_nats || !can_be_named(effect, with.model.axis)) {
+      if (question.start.empty()) return std::nullopt;
+      effect.q = question.start;
     }
     Ruling one = rule_with_one_more(now, std::move(with), forward_, fitter_);
     if (!can_be_named(one.model.effects.back(), one.model.axis)) return std::nullopt;
@@ -144,7 +155,9 @@ class SecondLook {
     const bool surely_read = score.hypothesis->only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
                              difference.deviations >= sure_deviations;
     const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && difference.deviations >= loud_deviations;
-    return Answer{&score, std::move(one), closer_by_far || loud || surely_read};
+    const bool told = score.hypothesis->told_by_runs_nats && nats >= *score.hypothesis->told_by_runs_nats &&
+                      difference.deviations >= least_deviations;
+    return Answer{&score, std::move(one), closer_by_far || loud || surely_read || told};
   }
 
   const ForwardModel& forward_;

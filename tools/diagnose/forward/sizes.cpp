@@ -88,9 +88,10 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     Candidate rest = without(fit.model, e);
     auto less = forward.nrmse(extended(rest));
     const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
-    const bool agreed = share_of_size(fit.model.effects[e], by_inverse_model) > least_share;
-    const double least = told ? least_change : doubtless_change;
     const auto* named = found.of(hypothesis);
+    const bool agreed =
+        (named != nullptr && named->by_closed_loop) || share_of_size(fit.model.effects[e], by_inverse_model) > least_share;
+    const double least = told ? least_change : doubtless_change;
     const bool sure = named != nullptr && named->missed_nats > surely_missed_nats;
     bool has_size =
         possible(fit.model.effects[e], fit.model.axis) && (sure || (agreed && largest_change(with, less) > least));

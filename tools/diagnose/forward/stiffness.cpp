@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "tools/diagnose/forward/extended_axis.h"
 
@@ -17,18 +18,26 @@ constexpr std::array compliances_m_per_N{2e-9,   2.6e-9, 3.4e-9, 4.4e-9, 5.7e-9,
                                          9.6e-9, 1.3e-8, 1.7e-8, 2.2e-8, 2.9e-8, 4e-8};
 
 bool can_be_told(const Fitter& fitter, const Candidate& model) {
-  const auto& track = fitter.model().tracks().front();
-  const bool force_alone = track.force_sensor_N.size() > 0 && track.slip_m.size() == 0;
-  return force_alone && !has(model, hypothesis("screw_compliance")) && !has(model, hypothesis("backlash"));
+  const bool force_recorded = fitter.model().tracks().front().force_sensor_N.size() > 0;
+  return force_recorded && !has(model, hypothesis("screw_compliance")) && !has(model, hypothesis("backlash"));
+}
+
+/// Compliances to be asked for: with a scale the one that it shows.
+std::vector<double> asked_of(const Fitter& fitter, const Whitening& whitening, Candidate on_screw) {
+  if (fitter.model().tracks().front().slip_m.size() == 0) return {compliances_m_per_N.begin(), compliances_m_per_N.end()};
+  constexpr int iterations = 4;
+  on_screw.effects.back().q.front() = compliances_m_per_N.front();
+  return {fitter.fit(on_screw, whitening, iterations).model.effects.back().q.front()};
 }
 
 /// The model on the screw under which the runs are likeliest with its numbers as they are; and by how much.
-std::pair<Candidate, double> on_likeliest_screw(const ForwardModel& forward, const Candidate& model) {
+std::pair<Candidate, double> on_likeliest_screw(const ForwardModel& forward, const Fitter& fitter,
+                                                const Whitening& whitening, const Candidate& model) {
   const double rigid = likelihood(forward, extended(model)).total();
   Candidate best = model, other = model;
   double nats = 0.0;
   other.effects.push_back({&hypothesis("screw_compliance"), {0.0, std::log(screw_damping_Ns_per_m)}});
-  for (const double compliance : compliances_m_per_N) {
+  for (const double compliance : asked_of(fitter, whitening, other)) {
     other.effects.back().q.front() = compliance;
     const double more = likelihood(forward, extended(other)).total() - rigid;
     if (more > nats) nats = more, best = other;
@@ -54,7 +63,7 @@ std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& f
                                     const std::function<void(std::string_view)>& progress) {
   if (!can_be_told(fitter, fit.model)) return std::nullopt;
   const Candidate punctual = with_punctual_force_sensor(fit.model);
-  const auto [start, nats] = on_likeliest_screw(forward, punctual);
+  const auto [start, nats] = on_likeliest_screw(forward, fitter, found.whitening, punctual);
   if (nats < clearly_nats) return std::nullopt;
   Ruling yielding = rule(fitter.linearised(start, found.whitening), forward, fitter), rigid = rule(fit, forward, fitter);
   const auto difference = compared(yielding.likelihood, rigid.likelihood);

@@ -33,17 +33,13 @@ FitParameter of_effect(const Active& effect, std::size_t j) {
           .start = {}};
 }
 
+bool moves(const WorkingParameter& p) {
+  return p.kind != Kind::fixed;
+}
+
 }  // namespace
 
-Unknowns::Unknowns(const Fitter& fitter, const Candidate& start)
-    : fitter_(fitter),
-      start_(start),
-      force_recorded_(fitter.model().tracks().front().force_sensor_N.size() > 0 &&
-                      fitter.model().tracks().front().slip_m.size() > 0) {}
-
-bool Unknowns::moves(const WorkingParameter& p) const {
-  return p.kind != Kind::fixed && !(p.by_force_sensor && force_recorded_);
-}
+Unknowns::Unknowns(const Fitter& fitter, const Candidate& start) : fitter_(fitter), start_(start) {}
 
 std::vector<FitParameter> Unknowns::parameters() const {
   std::vector<FitParameter> all;

@@ -1,6 +1,5 @@
 #pragma once
-// Which numbers of a model the closed loop moves, and where a Fit has them. What the recorded force tells stays as the
-// inverse model has it.
+// Which numbers of a model the closed loop moves, and where a Fit has them.
 
 #include "tools/diagnose/fit.h"
 #include "tools/identify/output_error.h"
@@ -23,11 +22,8 @@ class Unknowns {
   [[nodiscard]] Eigen::MatrixXd as_of_fit(const Eigen::MatrixXd& covariance) const;
 
  private:
-  [[nodiscard]] bool moves(const WorkingParameter& p) const;
-
   const Fitter& fitter_;
   const Candidate& start_;
-  const bool force_recorded_;
 };
 
 }  // namespace feedtwin::tools::diagnosis

@@ -65,7 +65,7 @@ Hypothesis dwell_breakaway() {
           .about_reversals = true,
           .finding = finding,
           .confused_with = {"presliding_memory"},
-          .closed_loop_start = {0.3, 1.0},  // about reversals the inverse model has only their ratio, and that roughly
+          .closed_loop_starts = {{0.3, 1.0}},  // about reversals the inverse model has only their ratio, and that roughly
           .friction = true};
 }
 

@@ -40,6 +40,8 @@ Hypothesis payload() {
           .absorbed = true,
           .far_off_gain = 35.0,
           .confused_with = {"current_loop_lag"},
+          .closed_loop_starts = {{0.0}},
+          .told_by_runs_nats = 100.0,
           .friction = false};
 }
 

@@ -33,7 +33,7 @@ Hypothesis screw_compliance() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::time,
-          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1.2e-7, true},
+          .parameters = {{"compliance_m_per_N", Kind::amplitude, 1e-9, 0.0, 1.2e-7},
                          {"log_damping", Kind::simulated, 1e-2, std::log(1e2), std::log(1e5)}},
           .shapes = {{std::log(screw_damping_Ns_per_m)}},
           .apply = apply,

@@ -39,6 +39,8 @@ Hypothesis torque_gain_error() {
           .absorbed = true,
           .least_missed_nats = 500.0,  // true ones 3360 and more; where noise was named so, 156
           .confused_with = {"sensor_gain"},
+          .closed_loop_starts = {{0.0}},
+          .told_by_runs_nats = 500.0,
           .friction = false};
 }
 

@@ -31,6 +31,8 @@ Hypothesis torque_offset() {
           .absorbed = true,
           .far_off_gain = 150.0,
           .confused_with = {"gravity", "direction_dependent_friction"},
+          .closed_loop_starts = {{0.0}},
+          .told_by_runs_nats = 100.0,
           .friction = false};
 }
 
