@@ -144,10 +144,10 @@ EffectLoad Coupling::respond(const EffectMotion& screw, double screw_before_m_pe
 
 double Coupling::finish(double screw_velocity_m_per_s) noexcept FEEDTWIN_REALTIME {
   const double given_N = trial_.force.force_N + trial_.force.slope_Ns_per_m * (screw_velocity_m_per_s - trial_.screw_w);
-  const auto [w, slope, kappa] = settle(screw_velocity_m_per_s, trial_.settled_w);
-  const double u = w - trial_.table_w;
+  const Settled table = settle(screw_velocity_m_per_s, trial_.settled_w);
+  const double w = table.w, u = w - trial_.table_w;
   const double path_m = w * trial_.h_s;
-  const double gained = (w + kappa * (screw_velocity_m_per_s - w) - velocity_m_per_s_) / trial_.end_weight;
+  const double gained = (w + table.kappa * (screw_velocity_m_per_s - w) - velocity_m_per_s_) / trial_.end_weight;
   const double inertial_J = trial_.inertia_Ns_per_m * (w - velocity_m_per_s_) * path_m;
   const double kinetic_J = mass_kg_ * gained * (velocity_m_per_s_ + 0.5 * gained);
   guide_J_ += (trial_.guide.force_N + trial_.guide.force_slope_Ns_per_m * u) * path_m;

@@ -6,7 +6,7 @@
 //
 // Over a sub-step with the screw's mean velocity w and the table's w_t, s = h (w - w_t):
 //
-//   F = (U(d + s) - U(d)) / s + c s / h          (discrete gradient: no energy is made where a flank is hit)
+//   F = (U(d + s) - U(d)) / s + c (e(d + s) - e(d)) / h   (discrete gradient: no energy is made where a flank is hit)
 //   2 M_L (w_t - v_t) / h = F - F_guide(w_t) - F_table(w_t)
 //
 // The table's equation is solved for w_t at the predicted w, and its dependence on w eliminated linearly:

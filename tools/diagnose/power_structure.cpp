@@ -14,7 +14,7 @@ constexpr Index least_rows_a_column = 5;
 
 /// What the drive's power is made of, row by row.
 Eigen::MatrixXd powers(const Track& track) {
-  Eigen::MatrixXd all(track.size, 8);
+  Eigen::MatrixXd all(track.size, std::tuple_size_v<DrivePowers>);
   for (Index k = 0; k < track.size; ++k) {
     const auto now = drive_powers(track.held_N[k], track.metered_m_per_s[k]);
     all.row(k) = Eigen::Map<const Eigen::RowVectorXd>(now.data(), all.cols());

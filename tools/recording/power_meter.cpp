@@ -10,7 +10,7 @@ namespace feedtwin::tools {
 namespace {
 
 // what a drive's power is made of, at last the work given back; and work by what torque was, nearly a row's delay
-constexpr int own_laws = 7, laws = 9;
+constexpr int drive_laws = std::tuple_size_v<DrivePowers>, own_laws = drive_laws - 1, laws = drive_laws + 1;
 using Laws = Eigen::Array<double, laws, 1>;
 
 /// What a tick's power may be made of, with the work of a torque that lags its command.
@@ -78,7 +78,7 @@ double unexplained(std::span<const Recording> recordings, MeterHabit habit, int 
 
 }  // namespace
 
-std::array<double, 8> drive_powers(double force_N, double velocity_m_per_s) {
+DrivePowers drive_powers(double force_N, double velocity_m_per_s) {
   const double v = velocity_m_per_s, forth = v > 0.0 ? 1.0 : 0.0, back = 1.0 - forth, work_W = force_N * v;
   return {1.0, forth * v, -back * v, forth * v * v, back * v * v, force_N * force_N, work_W, std::max(0.0, -work_W)};
 }

@@ -12,8 +12,9 @@
 namespace feedtwin::tools {
 
 /// What a drive's power may be made of at an instant, in no unit: 1, |v| and v^2 forth and back, force squared, work, and
-/// the work given back (Eqs. 7 and 11, the copper loss that they leave out, and what a drive may burn).
-[[nodiscard]] std::array<double, 8> drive_powers(double force_N, double velocity_m_per_s);
+/// the work given back, last (Eqs. 7 and 11, the copper loss that they leave out, and what a drive may burn).
+using DrivePowers = std::array<double, 8>;
+[[nodiscard]] DrivePowers drive_powers(double force_N, double velocity_m_per_s);
 
 /// The rows at which a metered power (held for many rows) is new, and the number of ticks that it is the mean of; window 1
 /// and every row where the power is not held.
