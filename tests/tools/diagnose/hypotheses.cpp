@@ -264,6 +264,7 @@ TEST(LocalFriction, IsNarrowAndNoMoreThanTheAxisHas) {
     return possible({&hypothesis("local_friction"), {height_N, 0.01, half_width_m}}, plant::source_axis());
   };
   EXPECT_TRUE(can_be(60.0, 2e-3));
+  EXPECT_TRUE(can_be(5.0, 0.06 * plant::source_axis().axis.stroke_m));
   EXPECT_FALSE(can_be(1000.0, 2e-4)) << "something solid";
   EXPECT_FALSE(can_be(5.0, 0.03)) << "friction along the stroke";
   EXPECT_FALSE(can_be(-5.0, 2e-3));

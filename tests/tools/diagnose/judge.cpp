@@ -141,6 +141,28 @@ TEST(Jumps, AnEffectIsFittedBesideAStopThatIsMetASampleEarlierOrLater) {
   EXPECT_NEAR(std::hypot(q[0], q[1]), amplitude_m, 0.1 * amplitude_m);
 }
 
+TEST(Starts, ASoftStopIsFoundDeepInsideTheTravel) {
+  constexpr double position_m = 0.07, stiffness_N_per_m = 2500.0;
+  auto nominal = plant::source_axis();
+  nominal.axis.stroke_m = 0.4;
+  auto truth = nominal;
+  truth.effects.push_back(tests::effect(
+      "hard_stop", {{"position_m", position_m}, {"stiffness_N_per_m", stiffness_N_per_m}, {"damping_Ns_per_m", 20.0}}));
+  tests::MadeRun run{.motion = "triangle", .duration_s = 6.0, .force_noise_N = 0.01};
+  run.settings.amplitude_m = 0.1;
+  run.settings.speed_m_per_s = 0.15;
+  const std::vector<tools::Recording> runs{tests::make_recording(truth, run)};
+  const InverseModel model(make_tracks(runs, nominal), nominal);
+  const Fitter fitter(model, nominal);
+  const Whitening whitening = fitter.colour_of(model.residual(nominal, {}));
+  const Fit base = fitter.fit({nominal, {}}, whitening, 6);
+  const auto scores = scores_of({&hypothesis("hard_stop")}, fitter, base, whitening);
+  ASSERT_EQ(scores.size(), 1U);
+  const auto q = fit_with(fitter, base.model, scores.front(), 0, whitening, 6).model.effects[0].q;
+  EXPECT_NEAR(q[0], stiffness_N_per_m, 0.05 * stiffness_N_per_m);
+  EXPECT_NEAR(q[2], position_m, 1e-3);
+}
+
 TEST(Starts, ADeadTimeOfSeveralTicksIsReachedThoughASensorReadsAnotherCommandWithEach) {
   constexpr double delay_s = 3.4e-3;
   auto truth = plant::source_axis(), nominal = truth;

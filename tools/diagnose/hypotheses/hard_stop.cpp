@@ -28,7 +28,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 1e3;  // softer is a spring
 }
 
-/// Only the ends of the travel can have met something.
+/// Only the ends of the travel can have met something; what is soft, a fifth of it deep.
 std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs) {
   double low = 1e300, high = -1e300;
   for (const auto& run : runs) {
@@ -36,7 +36,10 @@ std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs) {
     high = std::max(high, run.table_position_m.maxCoeff());
   }
   Grid grid;
-  for (const double depth : {5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 4e-3, 1e-2}) {
+  std::vector<double> depths{5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 4e-3, 1e-2};
+  for (const double share : {0.05, 0.1, 0.15, 0.2})
+    if (share * (high - low) > 1.2 * depths.back()) depths.push_back(share * (high - low));
+  for (const double depth : depths) {
     grid.push_back({high - depth, 1.0});
     grid.push_back({low + depth, -1.0});
   }

@@ -22,7 +22,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
   const auto mean_N = [](const plant::Directional& of) { return 0.5 * (of.pos + of.neg); };
   const double own_N = mean_N(axis.motor.coulomb_N) + mean_N(axis.ball_screw.coulomb_N) + mean_N(axis.guide.coulomb_N);
-  return q[0] > 0.0 && q[0] < own_N && q[2] < 0.05 * axis.axis.stroke_m;
+  return q[0] > 0.0 && q[0] < own_N && q[2] < 0.075 * axis.axis.stroke_m;
 }
 
 /// All along the recorded travel, narrow, wider, and a twelfth of it wide.
