@@ -13,7 +13,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int iterations = 6, most_names = 2, most_rounds = 4;
+constexpr int most_names = 2, most_rounds = 4;
 constexpr double beyond_noise = 2.0;                     // a channel that is worth the question
 constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
 constexpr double least_nats = 100.0, least_deviations = 3.0;
@@ -64,8 +64,7 @@ class SecondLook {
     if (!is_off(errors_)) return false;
     std::vector<Answer> answers;
     for (const auto& question : asked)
-      if (worth_asking(question, *settled))
-        if (auto one = answer(question, *settled, found.whitening, fit)) answers.push_back(std::move(*one));
+      if (auto one = answer(question, *settled, found.whitening, fit)) answers.push_back(std::move(*one));
     std::ranges::stable_sort(answers, std::greater{}, [](const Answer& a) { return a.ruling.value; });
     auto best = std::ranges::find(answers, true, &Answer::enough);
     if (best == answers.end()) return false;
@@ -121,43 +120,60 @@ class SecondLook {
     return std::ranges::any_of(errors, [&](const auto& e) { return e.second > beyond_noise * floor_.at(e.first); });
   }
 
-  /// What the numbers take up in the inverse model: a few steps along their known slopes tell whether to ask at all.
-  [[nodiscard]] bool worth_asking(const Question& question, const Ruling& now) const {
-    const Hypothesis& h = *question.score.hypothesis;
-    if (!h.told_by_runs_nats) return true;
+  /// The ruling's model with the effect that is asked about as given.
+  [[nodiscard]] static Fit beside(const Ruling& now, const Question& question) {
     Fit with = now.fit;
     with.model = now.model;
-    with.model.effects.push_back({&h, question.start});
+    with.model.effects.push_back({question.score.hypothesis, question.start});
+    return with;
+  }
+
+  /// With the effect as the inverse model fits it; where that cannot tell it as given, or not at all.
+  [[nodiscard]] std::optional<Fit> refitted(const Question& question, const Whitening& whitening, const Fit& fit) const {
+    constexpr int iterations = 6;
+    Fit with = fit_with(fitter_, fit.model, question.score, fit.model.effects.size(), whitening, iterations);
+    Active& effect = with.model.effects.back();
+    if (effect.hypothesis->told_by_runs_nats || !can_be_named(effect, with.model.axis)) {
+      if (question.start.empty()) return std::nullopt;
+      effect.q = question.start;
+    }
+    return with;
+  }
+
+  /// A few steps along the known slopes of the numbers tell whether to ask at all.
+  [[nodiscard]] bool worth_asking(const Fit& with, const Ruling& now) const {
     const Ruling glance = rule_beside(now, with, forward_, fitter_, SlopesOf::before);
-    return glance.value - now.value > glance_share * *h.told_by_runs_nats;
+    const double least = with.model.effects.back().hypothesis->told_by_runs_nats.value_or(least_nats);
+    return glance.value - now.value > glance_share * least;
   }
 
   /// The closed loop with one effect more; nothing where that is not the answer.
   [[nodiscard]] std::optional<Answer> answer(const Question& question, const Ruling& now, const Whitening& whitening,
                                              const Fit& fit) const {
-    const Score& score = question.score;
-    Fit with = fit_with(fitter_, fit.model, score, fit.model.effects.size(), whitening, iterations);
-    Active& effect = with.model.effects.back();
-    if (score.hypothesis->told_by_runs_nats || !can_be_named(effect, with.model.axis)) {
-      if (question.start.empty()) return std::nullopt;
-      effect.q = question.start;
-    }
-    Ruling one = rule_with_one_more(now, std::move(with), forward_, fitter_);
+    const Hypothesis& h = *question.score.hypothesis;
+    if (h.told_by_runs_nats && !worth_asking(beside(now, question), now)) return std::nullopt;
+    auto with = refitted(question, whitening, fit);
+    if (!with || (!h.told_by_runs_nats && !worth_asking(*with, now))) return std::nullopt;
+    Ruling one = rule_with_one_more(now, std::move(*with), forward_, fitter_);
     if (!can_be_named(one.model.effects.back(), one.model.axis)) return std::nullopt;
-    const auto seen = closer(errors_, forward_.nrmse(extended(one.model)), floor_, score.hypothesis->only_readings);
-    const auto difference = compared(one.likelihood, now.likelihood);
-    progress_(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %",
-                          score.hypothesis->id, one.value - now.value, difference.deviations,
-                          seen.channel.empty() ? "no channel" : seen.channel, seen.ratio, 100.0 * seen.share));
-    const double nats = one.value - now.value;
-    const bool closer_by_far = seen.ratio >= least_ratio && seen.share >= least_share && nats >= least_nats &&
-                               difference.deviations >= least_deviations;
-    const bool surely_read = score.hypothesis->only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
-                             difference.deviations >= sure_deviations;
-    const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && difference.deviations >= loud_deviations;
-    const bool told = score.hypothesis->told_by_runs_nats && nats >= *score.hypothesis->told_by_runs_nats &&
-                      difference.deviations >= least_deviations;
-    return Answer{&score, std::move(one), closer_by_far || loud || surely_read || told};
+    const bool enough = is_enough(one, now);
+    return Answer{&question.score, std::move(one), enough};
+  }
+
+  [[nodiscard]] bool is_enough(const Ruling& one, const Ruling& now) const {
+    const Hypothesis& h = *one.model.effects.back().hypothesis;
+    const auto seen = closer(errors_, forward_.nrmse(extended(one.model)), floor_, h.only_readings);
+    const double nats = one.value - now.value, deviations = compared(one.likelihood, now.likelihood).deviations;
+    progress_(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %", h.id,
+                          nats, deviations, seen.channel.empty() ? "no channel" : seen.channel, seen.ratio,
+                          100.0 * seen.share));
+    const bool closer_by_far =
+        seen.ratio >= least_ratio && seen.share >= least_share && nats >= least_nats && deviations >= least_deviations;
+    const bool surely_read =
+        h.only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats && deviations >= sure_deviations;
+    const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && deviations >= loud_deviations;
+    const bool told = h.told_by_runs_nats && nats >= *h.told_by_runs_nats && deviations >= least_deviations;
+    return closer_by_far || loud || surely_read || told;
   }
 
   const ForwardModel& forward_;
