@@ -115,7 +115,7 @@ TEST(Ruling, OneEffectMoreThatStartsAstrayStartsFromNoneInstead) {
   // more than the motor can turn against
   const Fit astray = made.fitter.linearised({made.data.axis, {{&hypothesis("cogging"), {3.0, 3.0, 8.0}}}}, made.whitening);
   EXPECT_LT(rule_beside(before, astray, made.forward, made.fitter, SlopesOf::anew).value, before.value);
-  const Ruling found = rule_with_one_more(before, astray, made.forward, made.fitter);
+  const Ruling found = rule_with_one_more(before, astray, 0, made.forward, made.fitter);
   EXPECT_GT(found.value, before.value + 100.0);
   EXPECT_NEAR(found.model.effects[0].q[0], 0.01, 1e-3);
 }
@@ -149,6 +149,24 @@ TEST(Missed, ANameThatTheClosedLoopDoesAsWellWithoutIsTakenBackAndTheRightOneSta
   ASSERT_EQ(result.found.size(), 1U);
   EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
   EXPECT_EQ(settled.model.effects.size(), 1U);
+}
+
+TEST(Missed, ANameStaysThoughTheModelWithItHadGoneAstray) {
+  const Cogged made;
+  const Candidate right{made.data.axis, {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
+  Candidate astray = right;
+  for (auto* contact : {&astray.axis.ball_screw, &astray.axis.guide}) contact->coulomb_N = {1.0, 1.0};
+  Fit fit = made.fitter.linearised(right, made.whitening);
+  SearchResult result;
+  result.whitening = made.whitening;
+  result.found.emplace_back().effect = right.effects[0];
+  Ruling settled{fit, astray, likelihood(made.forward, extended(astray)), 0.0, {}};
+  const double value = settled.value = settled.likelihood.total();
+  keep_missed(made.forward, made.fitter, result, fit, settled, silent);
+  EXPECT_EQ(result.found.size(), 1U);
+  EXPECT_EQ(fit.model.effects.size(), 1U);
+  EXPECT_GT(settled.value, value + 1000.0);
+  EXPECT_GT(result.found[0].missed_nats, 100.0);
 }
 
 TEST(Sizes, WhatOtherNumbersCanTakeUpIsTakenBackWhereItsOwnAreNotTold) {

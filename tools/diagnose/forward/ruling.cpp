@@ -67,10 +67,11 @@ Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& for
                   slopes == SlopesOf::before ? before.slopes : nullptr);
 }
 
-Ruling rule_with_one_more(const Ruling& before, Fit fit, const ForwardModel& forward, const Fitter& fitter) {
+Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const ForwardModel& forward,
+                          const Fitter& fitter) {
   Ruling one = rule_beside(before, fit, forward, fitter, SlopesOf::anew);
   if (one.likelihood.total() >= before.likelihood.total()) return one;
-  Active& effect = fit.model.effects.back();
+  Active& effect = fit.model.effects[more];
   for (std::size_t j = 0; j < effect.q.size(); ++j)
     if (effect.hypothesis->parameters[j].kind == Kind::amplitude) effect.q[j] = 0.0;
   Ruling from_none = rule_beside(before, fit, forward, fitter, SlopesOf::anew);

@@ -154,7 +154,8 @@ class SecondLook {
     if (h.told_by_runs_nats && !worth_asking(beside(now, question), now)) return std::nullopt;
     auto with = refitted(question, whitening, fit);
     if (!with || (!h.told_by_runs_nats && !worth_asking(*with, now))) return std::nullopt;
-    Ruling one = rule_with_one_more(now, std::move(*with), forward_, fitter_);
+    const std::size_t more = with->model.effects.size() - 1;
+    Ruling one = rule_with_one_more(now, std::move(*with), more, forward_, fitter_);
     if (!can_be_named(one.model.effects.back(), one.model.axis)) return std::nullopt;
     const bool enough = is_enough(one, now);
     return Answer{&question.score, std::move(one), enough};
