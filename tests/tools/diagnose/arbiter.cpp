@@ -169,6 +169,24 @@ TEST(Missed, ANameStaysThoughTheModelWithItHadGoneAstray) {
   EXPECT_GT(result.found[0].missed_nats, 100.0);
 }
 
+TEST(Missed, ANameThatShrinksToNothingGoesHoweverMuchItIsMissed) {
+  const Cogged made;
+  const Candidate both{made.data.axis,
+                       {{&hypothesis("torque_gain_error"), {0.005}}, {&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
+  Fit fit = made.fitter.linearised(both, made.whitening);
+  SearchResult result;
+  result.whitening = made.whitening;
+  for (const auto& effect : both.effects) {
+    result.found.emplace_back().effect = effect;
+    result.found.back().by_closed_loop = false;
+  }
+  Ruling settled = rule(fit, made.forward, made.fitter);
+  settled.value += 1e6;  // as if each were missed that much
+  keep_missed(made.forward, made.fitter, result, fit, settled, silent);
+  ASSERT_EQ(result.found.size(), 1U);
+  EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
+}
+
 TEST(Sizes, WhatOtherNumbersCanTakeUpIsTakenBackWhereItsOwnAreNotTold) {
   const Cogged made;
   Candidate model{made.data.axis,

@@ -270,6 +270,17 @@ TEST(LocalFriction, IsNarrowAndNoMoreThanTheAxisHas) {
   EXPECT_FALSE(can_be(-5.0, 2e-3));
 }
 
+TEST(TorqueGainError, AtItsBoundStandsForSomethingElse) {
+  const auto can_be = [](double error) {
+    return possible({&hypothesis("torque_gain_error"), {error}}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(0.2));
+  EXPECT_TRUE(can_be(-0.2));
+  EXPECT_FALSE(can_be(0.25));
+  EXPECT_FALSE(can_be(-0.25));
+  EXPECT_FALSE(can_be(0.01)) << "within its tolerance";
+}
+
 TEST(Hypothesis, ALagAndADelayAreAlikeOnlyWhereBothAreGoneWithinASample) {
   const auto of = [](std::string_view id, double seconds) { return Active{&hypothesis(id), {seconds}}; };
   constexpr double sample_s = 1e-3;
