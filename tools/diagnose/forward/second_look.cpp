@@ -64,9 +64,11 @@ class SecondLook {
     if (!is_off(errors_)) return false;
     std::vector<Answer> answers;
     for (const auto& question : asked)
-      if (auto one = answer(question, *settled, found.whitening, fit)) answers.push_back(std::move(*one));
+      if (auto one = answer(question, *settled, shared_nats(answers, *settled), found.whitening, fit))
+        answers.push_back(std::move(*one));
     std::ranges::stable_sort(answers, std::greater{}, [](const Answer& a) { return a.ruling.value; });
     auto best = std::ranges::find(answers, true, &Answer::enough);
+    while (best != answers.end() && !told_fairly(*best, *settled)) best = std::find_if(++best, answers.end(), &enough);
     if (best == answers.end()) return false;
     const auto rivals = settled_against_others(answers, best);
     const double gain = fit.cost - best->ruling.fit.cost;
@@ -88,8 +90,21 @@ class SecondLook {
   struct Answer {
     const Score* score;
     Ruling ruling;
-    bool enough;  ///< to be named
+    bool enough = false;         ///< to be named
+    bool by_runs_alone = false;  ///< no channel says so
   };
+
+  static bool enough(const Answer& answer) { return answer.enough; }
+
+  /// What no channel's error tells must not be what polishing further tells: the model without goes on from its numbers.
+  [[nodiscard]] bool told_fairly(Answer& answer, Ruling& without) const {
+    const Hypothesis& h = *answer.score->hypothesis;
+    if (!answer.by_runs_alone) return true;
+    contest(answer.ruling, without, forward_, fitter_);
+    const double nats = answer.ruling.value - without.value;
+    progress_(fmt::format("closed loop, {}, both polished further: {:+.0f} nats", h.id, nats));
+    return nats >= *h.told_by_runs_nats;
+  }
 
   /// As far as polishing goes: what it has still to gain would be put down to the effect that is asked about.
   [[nodiscard]] Ruling polished_out(Ruling now) const {
@@ -140,29 +155,36 @@ class SecondLook {
     return with;
   }
 
+  /// What any effect brings, as the first answers show: it is what polishing further does.
+  [[nodiscard]] static double shared_nats(const std::vector<Answer>& answers, const Ruling& now) {
+    if (answers.size() < 2) return 0.0;
+    const auto least = std::ranges::min_element(answers, {}, [](const Answer& one) { return one.ruling.value; });
+    return std::max(0.0, least->ruling.value - now.value);
+  }
+
   /// A few steps along the known slopes of the numbers tell whether to ask at all.
-  [[nodiscard]] bool worth_asking(const Fit& with, const Ruling& now) const {
+  [[nodiscard]] bool worth_asking(const Fit& with, const Ruling& now, double shared) const {
     const Ruling glance = rule_beside(now, with, forward_, fitter_, SlopesOf::before);
     const double least = with.model.effects.back().hypothesis->told_by_runs_nats.value_or(least_nats);
-    return glance.value - now.value > glance_share * least;
+    return glance.value - now.value > shared + glance_share * least;
   }
 
   /// The closed loop with one effect more; nothing where that is not the answer.
-  [[nodiscard]] std::optional<Answer> answer(const Question& question, const Ruling& now, const Whitening& whitening,
-                                             const Fit& fit) const {
+  [[nodiscard]] std::optional<Answer> answer(const Question& question, const Ruling& now, double shared,
+                                             const Whitening& whitening, const Fit& fit) const {
     const Hypothesis& h = *question.score.hypothesis;
-    if (h.told_by_runs_nats && !worth_asking(beside(now, question), now)) return std::nullopt;
+    if (h.told_by_runs_nats && !worth_asking(beside(now, question), now, shared)) return std::nullopt;
     auto with = refitted(question, whitening, fit);
-    if (!with || (!h.told_by_runs_nats && !worth_asking(*with, now))) return std::nullopt;
+    if (!with || (!h.told_by_runs_nats && !worth_asking(*with, now, shared))) return std::nullopt;
     const std::size_t more = with->model.effects.size() - 1;
     Ruling one = rule_with_one_more(now, std::move(*with), more, forward_, fitter_);
     if (!can_be_named(one.model.effects.back(), one.model.axis)) return std::nullopt;
-    const bool enough = is_enough(one, now);
-    return Answer{&question.score, std::move(one), enough};
+    return judged(Answer{&question.score, std::move(one)}, now);
   }
 
-  [[nodiscard]] bool is_enough(const Ruling& one, const Ruling& now) const {
-    const Hypothesis& h = *one.model.effects.back().hypothesis;
+  [[nodiscard]] Answer judged(Answer answer, const Ruling& now) const {
+    const Hypothesis& h = *answer.score->hypothesis;
+    const Ruling& one = answer.ruling;
     const auto seen = closer(errors_, forward_.nrmse(extended(one.model)), floor_, h.only_readings);
     const double nats = one.value - now.value, deviations = compared(one.likelihood, now.likelihood).deviations;
     progress_(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %", h.id,
@@ -174,7 +196,9 @@ class SecondLook {
         h.only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats && deviations >= sure_deviations;
     const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && deviations >= loud_deviations;
     const bool told = h.told_by_runs_nats && nats >= *h.told_by_runs_nats && deviations >= least_deviations;
-    return closer_by_far || loud || surely_read || told;
+    answer.by_runs_alone = told && !(closer_by_far || loud || surely_read);
+    answer.enough = told || closer_by_far || loud || surely_read;
+    return answer;
   }
 
   const ForwardModel& forward_;
