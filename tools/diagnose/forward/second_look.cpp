@@ -23,6 +23,7 @@ constexpr double glance_share = 0.3;          // of the nats that tell it: what 
 constexpr double of_consequence_nats = 10.0;  // of a polish
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
 constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
+constexpr double least_deviations_of_readings = 9.0;  // by the runs alone: right ones 9.7 and more, wrong ones 8.1 and less
 
 /// How a model brings a channel closer, of those that are off beyond noise.
 struct Closer {
@@ -195,7 +196,8 @@ class SecondLook {
     const bool surely_read =
         h.only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats && deviations >= sure_deviations;
     const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && deviations >= loud_deviations;
-    const bool told = h.told_by_runs_nats && nats >= *h.told_by_runs_nats && deviations >= least_deviations;
+    const bool told = h.told_by_runs_nats && nats >= *h.told_by_runs_nats &&
+                      deviations >= (h.only_readings ? least_deviations_of_readings : least_deviations);
     answer.by_runs_alone = told && !(closer_by_far || loud || surely_read);
     answer.enough = told || closer_by_far || loud || surely_read;
     return answer;

@@ -62,7 +62,7 @@ Hypothesis sensor_gain() {
           .confused_with = {"torque_gain_error"},
           .starts = {{0.0, 0.0, torque}, {0.0, 0.0, force}},
           .closed_loop_starts = {{0.0, 0.0, torque}, {0.0, 0.0, force}},
-          .told_by_runs_nats = 1000.0,  // true ones 3450 and more; where friction is not LuGre's, 600
+          .told_by_runs_nats = 500.0,
           .friction = false};
 }
 
