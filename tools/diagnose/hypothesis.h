@@ -112,8 +112,8 @@ struct Hypothesis {
   std::vector<double> reaches = {1.0};
   /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.
   std::vector<std::vector<double>> starts = {};
-  /// Where the closed loop starts from when the inverse model finds no possible size, which it then can say little about;
-  /// none: it is not asked then.
+  /// Of what the inverse model can say little about: where the closed loop starts from, each start a question of its own
+  /// whatever the inverse model welcomes. Its own size is preferred where it finds a possible one and the numbers leave it.
   std::vector<std::vector<double>> closed_loop_starts = {};
   /// Of what the numbers take up nearly all of in the inverse model: told where in closed loop, all numbers free, the runs
   /// are so many nats likelier, however little closer a channel comes.

@@ -241,55 +241,6 @@ TEST(ChannelSkew, HalfASampleLaterAReadingKeepsItsStrength) {
   EXPECT_LT((later - truth).norm(), 0.01 * truth.norm());
 }
 
-TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCouldBeIt) {
-  const auto finding = [](double force_N, double distance_m) {
-    return worth_naming({&hypothesis("presliding_memory"), {force_N, distance_m}});
-  };
-  EXPECT_TRUE(finding(80.0, 8e-6));
-  EXPECT_TRUE(finding(8.0, 1.7e-5));
-  EXPECT_FALSE(finding(80.0, 1.5e-6)) << "a bristle's own stiffness";
-  EXPECT_FALSE(finding(35.0, 6e-6)) << "a contact of many elements where the model has one bristle";
-  EXPECT_FALSE(finding(3.6, 1.2e-5)) << "a screw that yields";
-}
-
-TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {
-  const auto can_be = [](double mass_kg) { return possible({&hypothesis("payload"), {mass_kg}}, plant::source_axis()); };
-  EXPECT_TRUE(can_be(13.0));
-  EXPECT_FALSE(can_be(3e7)) << "something solid";
-  EXPECT_FALSE(can_be(-1.0));
-}
-
-TEST(LocalFriction, IsNarrowAndNoMoreThanTheAxisHas) {
-  const auto can_be = [](double height_N, double half_width_m) {
-    return possible({&hypothesis("local_friction"), {height_N, 0.01, half_width_m}}, plant::source_axis());
-  };
-  EXPECT_TRUE(can_be(60.0, 2e-3));
-  EXPECT_TRUE(can_be(5.0, 0.06 * plant::source_axis().axis.stroke_m));
-  EXPECT_FALSE(can_be(1000.0, 2e-4)) << "something solid";
-  EXPECT_FALSE(can_be(5.0, 0.03)) << "friction along the stroke";
-  EXPECT_FALSE(can_be(-5.0, 2e-3));
-}
-
-TEST(TorqueGainError, AtItsBoundStandsForSomethingElse) {
-  const auto can_be = [](double error) {
-    return possible({&hypothesis("torque_gain_error"), {error}}, plant::source_axis());
-  };
-  EXPECT_TRUE(can_be(0.2));
-  EXPECT_TRUE(can_be(-0.2));
-  EXPECT_FALSE(can_be(0.25));
-  EXPECT_FALSE(can_be(-0.25));
-  EXPECT_FALSE(can_be(0.01)) << "within its tolerance";
-}
-
-TEST(Hypothesis, ALagAndADelayAreAlikeOnlyWhereBothAreGoneWithinASample) {
-  const auto of = [](std::string_view id, double seconds) { return Active{&hypothesis(id), {seconds}}; };
-  constexpr double sample_s = 1e-3;
-  EXPECT_TRUE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 1.2e-4), sample_s));
-  EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 4e-4), sample_s));
-  EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 1.2e-4), 0.25 * sample_s));
-  EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("frictional_lag", 1.2e-4), sample_s));
-}
-
 std::vector<std::string_view> ids() {
   std::vector<std::string_view> all;
   for (const auto& one : hypotheses()) all.push_back(one.id);

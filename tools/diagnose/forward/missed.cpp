@@ -42,7 +42,7 @@ class Asked {
       if (settled.value - rest.value < std::max(doubtful_nats, least_nats(*named))) asked_fairly(settled, rest, e);
       named->missed_nats = settled.value - rest.value;
       progress_(fmt::format("closed loop, all numbers free, without {}: {:+.0f} nats", hypothesis->id, -named->missed_nats));
-      const bool shrunk = !can_be_named(settled.model.effects[e], settled.model.axis);
+      const bool shrunk = !possible(settled.model.effects[e], settled.model.axis);
       const double short_of_nats = shrunk ? 1e300 : least_nats(*named) - named->missed_nats;
       if (short_of_nats > 0.0 && (!least || short_of_nats > least->short_of_nats))
         least = Lacking{hypothesis, std::move(rest), short_of_nats};
@@ -81,7 +81,6 @@ class Asked {
 
 void keep_missed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit, Ruling& settled,
                  const std::function<void(std::string_view)>& progress) {
-  constexpr double of_consequence_nats = 10.0;
   constexpr int most_repeats = 2;
   const Asked asked(forward, fitter, progress);
   for (int repeats = 0;;) {

@@ -80,7 +80,7 @@ Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const
 
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter) {
   constexpr int most_rounds = 2;
-  constexpr double hopeless_nats = 1500.0, of_consequence_nats = 10.0;
+  constexpr double hopeless_nats = 1500.0;
   for (int round = 0; round < most_rounds; ++round) {
     Ruling &behind = one.value < other.value ? one : other, &ahead = one.value < other.value ? other : one;
     const Candidate beside = with_numbers_of(ahead.model, behind.model);

@@ -13,6 +13,8 @@ namespace feedtwin::tools::diagnosis {
 /// What decides between two explanations. Of some thirty decisions on eight sets four were wrong: with 84 nats and 0.9
 /// deviations, 112 and 1.7, 6789 and 2.1, 253 and 3.9; of the right ones all but two had 102 and 2.6 at least.
 inline constexpr double clearly_nats = 100.0, clearly_deviations = 2.4;
+/// What a polish must bring to go on with it.
+inline constexpr double of_consequence_nats = 10.0;
 
 struct Ruling {
   Fit fit;          ///< by the inverse model

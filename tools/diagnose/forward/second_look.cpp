@@ -19,8 +19,7 @@ constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error
 constexpr double least_nats = 100.0, least_deviations = 3.0;
 // what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
 constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
-constexpr double glance_share = 0.3;          // of the nats that tell it: what a glance must promise
-constexpr double of_consequence_nats = 10.0;  // of a polish
+constexpr double glance_share = 0.3;  // of the nats that tell it: what a glance must promise
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
 constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
 constexpr double least_deviations_of_readings = 9.0;  // by the runs alone: right ones 9.7 and more, wrong ones 8.1 and less
