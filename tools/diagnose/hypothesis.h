@@ -36,6 +36,7 @@ struct View {
 struct Contribution {
   Vector drive_N;                          ///< torque of the motor beyond its command
   Vector drive_step_N;                     ///< torque at the sample's instant beyond its mean, less the command's
+  Vector metered_drive_N;                  ///< the same while a command is held, as the power meter has it, beyond drive_N
   Vector motor_N, screw_N, guide_N;        ///< more resistance in a component
   Vector torque_sensor_N, force_sensor_N;  ///< a sensor's reading beyond the truth
   Vector slip_m;                           ///< linear scale less motor encoder

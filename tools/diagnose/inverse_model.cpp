@@ -119,7 +119,8 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   if (equation.power) {
     Vector model = base.power_W;
     if (extra.power_W.size() > 0) model += extra.power_W;
-    if (extra.drive_N.size() > 0) model += extra.drive_N.cwiseProduct(track.metered_m_per_s);
+    for (const Vector* torque_N : {&extra.drive_N, &extra.metered_drive_N})
+      if (torque_N->size() > 0) model += torque_N->cwiseProduct(track.metered_m_per_s);
     return model;
   }
   Vector r = recorded_side(equation, run);

@@ -192,6 +192,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
     track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h, static_cast<Index>(recording.meter.delay));
   track.metered_m_per_s = Vector::Zero(n);
   track.metered_m_per_s.head(n - 1) = (x.tail(n - 1) - x.head(n - 1)) / h;
+  track.metered_at_m = recording.meter.instants ? x : Vector(x + 0.5 * h * track.metered_m_per_s);
   if (recording.meter.instants) track.metered_m_per_s = about_sample(track.metered_m_per_s);
   return track;
 }

@@ -58,6 +58,7 @@ struct Track {
   Vector slip_m;  ///< linear scale less motor encoder
   MeterWindows meter;
   Vector metered_m_per_s;  ///< velocity that the power meter saw under the command of a sample, not smoothed
+  Vector metered_at_m;     ///< where it saw it
 };
 
 [[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);

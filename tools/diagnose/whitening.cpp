@@ -22,18 +22,29 @@ Vector clipped(const Vector& values, double limit) {
   return values.cwiseMax(-limit).cwiseMin(limit);
 }
 
-/// Without the mean of each direction of motion: what is steady is no noise, and must not be whitened away.
+/// Without what is steady in each direction of motion, or goes steadily with time or place: that is no noise, and must not be
+/// whitened away.
 Vector less_steady(const InverseModel& model, const Vector& residual) {
   Vector out = residual;
   for (std::size_t e = 0; e < model.equations().size(); ++e) {
     if (model.equations()[e].power || model.equations()[e].slip) continue;
     for (const bool forth : {true, false}) {
       std::vector<Index> rows;
-      for (const auto& s : model.segments())
-        for (Index i = 0; s.equation == e && i < s.size; ++i)
-          if (model.settled(s.start + i) && (model.tracks()[s.run].centred_m_per_s[model.sample_of(s, i)] > 0.0) == forth)
-            rows.push_back(s.start + i);
-      if (!rows.empty()) out(rows).array() -= residual(rows).mean();
+      std::vector<Eigen::RowVector3d> steady;
+      for (const auto& s : model.segments()) {
+        const Track& track = model.tracks()[s.run];
+        for (Index i = 0; s.equation == e && i < s.size; ++i) {
+          const Index k = model.sample_of(s, i);
+          if (!model.settled(s.start + i) || (track.centred_m_per_s[k] > 0.0) != forth) continue;
+          rows.push_back(s.start + i);
+          steady.emplace_back(1.0, static_cast<double>(k) / static_cast<double>(track.size), track.shown_m[k]);
+        }
+      }
+      if (rows.empty()) continue;
+      Eigen::MatrixX3d regressors(static_cast<Index>(rows.size()), 3);
+      for (Index i = 0; i < regressors.rows(); ++i) regressors.row(i) = steady[static_cast<std::size_t>(i)];
+      const Vector there = residual(rows);
+      out(rows) -= regressors * regressors.completeOrthogonalDecomposition().solve(there);
     }
   }
   return out;

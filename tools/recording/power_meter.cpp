@@ -121,11 +121,14 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
 
 MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
   constexpr double clearly = 0.6;  // of the squares; a lagging current loop alone makes 0.66 (practice case p08)
+  // with a lag among the laws the practice cases, which are of instants, have 0.98 and more; where a ripple that is no law
+  // yet hides the difference, means over time had 0.87
+  constexpr double likely = 0.9;
   constexpr MeterHabit instants{}, all_time{.delay = 0, .instants = false}, late{.delay = 1, .instants = false};
   for (const int asked : {own_laws, own_laws + 1})
     if (unexplained(recordings, late, asked, axis) < clearly * unexplained(recordings, all_time, asked, axis)) return late;
   const double over_time = unexplained(recordings, all_time, laws, axis);
-  return over_time < clearly * unexplained(recordings, instants, laws, axis) ? all_time : instants;
+  return over_time < likely * unexplained(recordings, instants, laws, axis) ? all_time : instants;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

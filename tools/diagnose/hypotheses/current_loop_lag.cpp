@@ -22,6 +22,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   }
   add(sum.drive_N, about_sample(torque) - track.command_N);
   add(sum.drive_step_N, instant - about_sample(torque) - (track.held_N - track.command_N));
+  add(sum.metered_drive_N, torque - about_sample(torque) - (track.held_N - track.command_N));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

@@ -11,8 +11,9 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const double samples = q[0] / view.track.sample_s;
-  const Vector about = about_sample(delayed(view.track.held_N, samples));
+  const Vector late = delayed(view.track.held_N, samples), about = about_sample(late);
   add(sum.drive_N, about - view.track.command_N);
+  add(sum.metered_drive_N, late - about - (view.track.held_N - view.track.command_N));
   // at the sample's instant, when the sensors read, the command before still acts, however short the delay
   const Vector instant = delayed(view.track.held_N, std::max(1.0, std::ceil(samples)));
   add(sum.drive_step_N, instant - about - (view.track.held_N - view.track.command_N));

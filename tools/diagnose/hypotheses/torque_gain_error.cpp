@@ -15,6 +15,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   // without a sensor behind the motor, and without a power meter, every friction number takes it up
   if (track.torque_sensor_N.size() == 0 && track.force_sensor_N.size() == 0 && track.meter.starts.empty()) return;
   add(sum.drive_N, q[0] * track.command_N);
+  add(sum.metered_drive_N, q[0] * (track.held_N - track.command_N));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

@@ -9,7 +9,13 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.drive_N, view.track.command_N.cwiseProduct(wave(view.track.position_m, view.axis.axis.lead_m, q[2], q[0], q[1])));
+  const Track& track = view.track;
+  const auto ripple = [&](const Vector& torque_N, const Vector& at_m) -> Vector {
+    return torque_N.cwiseProduct(wave(at_m, view.axis.axis.lead_m, q[2], q[0], q[1]));
+  };
+  const Vector about = ripple(track.command_N, track.position_m);
+  add(sum.drive_N, about);
+  add(sum.metered_drive_N, ripple(track.held_N, track.metered_at_m) - about);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
