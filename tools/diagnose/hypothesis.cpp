@@ -76,9 +76,10 @@ void scale(Vector& factors, const Vector& more) {
 }
 
 void add(Contribution& sum, const Contribution& more) {
-  for (const auto part : {&Contribution::drive_N, &Contribution::drive_step_N, &Contribution::metered_drive_N, &Contribution::motor_N,
-                          &Contribution::screw_N, &Contribution::guide_N, &Contribution::torque_sensor_N,
-                          &Contribution::force_sensor_N, &Contribution::slip_m, &Contribution::power_W})
+  for (const auto part :
+       {&Contribution::drive_N, &Contribution::drive_step_N, &Contribution::metered_drive_N, &Contribution::motor_N,
+        &Contribution::screw_N, &Contribution::guide_N, &Contribution::torque_sensor_N, &Contribution::force_sensor_N,
+        &Contribution::slip_m, &Contribution::power_W})
     if ((more.*part).size() > 0) add(sum.*part, more.*part);
   for (const auto factors : {&Contribution::screw_sliding, &Contribution::screw_viscous})
     if ((more.*factors).size() > 0) scale(sum.*factors, more.*factors);

@@ -1,6 +1,6 @@
 #pragma once
-// What a wrong wire or a typo does mimics everything, so it is looked for first: a signal in reverse, a lead that is not the
-// screw's.
+// What a wrong wire or a typo does mimics everything, so it is looked for first: a signal in reverse, counts that
+// are lost on the way, a lead that is not the screw's.
 
 #include <string>
 #include <vector>

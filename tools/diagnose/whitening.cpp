@@ -22,8 +22,8 @@ Vector clipped(const Vector& values, double limit) {
   return values.cwiseMax(-limit).cwiseMin(limit);
 }
 
-/// Without what is steady in each direction of motion, or goes steadily with time or place: that is no noise, and must not be
-/// whitened away.
+/// Without what is steady in each direction of motion, or goes steadily with time or place: that is no noise, and must not
+/// be whitened away.
 Vector less_steady(const InverseModel& model, const Vector& residual) {
   Vector out = residual;
   for (std::size_t e = 0; e < model.equations().size(); ++e) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "tests/support/made_case.h"
 
@@ -92,6 +94,42 @@ TEST(SetupChecks, AReversedSignalIsFoundAndTurned) {
     EXPECT_EQ(faults[0].channel, name);
     EXPECT_EQ(data.fit[0].channels.at(name), right);
   }
+}
+
+/// At these moments the encoder loses counts, and the axis does not know.
+void lose(tools::Recording& run, double counts, const std::vector<double>& moments_s) {
+  const double lost_m = counts * plant::source_axis().axis.lead_m / plant::source_axis().axis.encoder_counts_per_rev;
+  auto& shown = run.channels.at("position_m");
+  for (const double t_s : moments_s)
+    for (auto k = static_cast<std::size_t>(t_s / run.sample_s); k < shown.size(); ++k) shown[k] -= lost_m;
+}
+
+TEST(SetupChecks, CountsLostAtMomentsOfTheirOwnAreGivenBack) {
+  for (const bool scale : {true, false})
+    for (const double counts : {40.0, -40.0}) {
+      Case data = recorded_with(plant::source_axis());
+      if (!scale) data.fit[0].channels.erase("scale_position_m");
+      const auto right = data.fit[0].channels.at("position_m");
+      lose(data.fit[0], counts, {0.31, 0.9, 1.47, 2.61, 3.05});
+      const auto faults = mend_setup(data);
+      ASSERT_EQ(faults.size(), 1U) << counts;
+      EXPECT_EQ(faults[0].id, "count_loss");
+      EXPECT_DOUBLE_EQ(faults[0].parameters[0].value, counts);
+      EXPECT_NEAR(faults[0].parameters[1].value, 5.0 / 4.0, 0.01);
+      const auto& mended = data.fit[0].channels.at("position_m");
+      for (std::size_t k = 0; k < right.size(); ++k) ASSERT_NEAR(mended[k], right[k], 1e-9) << k;
+    }
+}
+
+TEST(SetupChecks, LossesAtAMarkOrOfManySizesAreNoneOfTheirOwn) {
+  auto axis = plant::source_axis();
+  axis.effects.push_back(tests::effect("count_loss", {{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}));
+  Case at_a_mark = recorded_with(axis);
+  EXPECT_TRUE(mend_setup(at_a_mark).empty());
+  Case many_sizes = recorded_with(plant::source_axis());
+  for (const auto& [counts, at_s] : {std::pair{20.0, 0.31}, {90.0, 0.9}, {35.0, 1.47}, {300.0, 2.61}, {150.0, 3.05}})
+    lose(many_sizes.fit[0], counts, {at_s});
+  EXPECT_TRUE(mend_setup(many_sizes).empty());
 }
 
 TEST(SetupChecks, AMetersWindowIsKnownToHalfASample) {

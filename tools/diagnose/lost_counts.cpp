@@ -1,0 +1,121 @@
+#include "tools/diagnose/lost_counts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <iterator>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr std::size_t beside = 3;  // samples before and after that say what the motion was
+
+/// A sample within which the reading jumps.
+struct Jump {
+  std::size_t row;     ///< first with the new reading
+  double counts, rev;  ///< lost; where the shaft was
+};
+
+double middle_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Counts that each sample's step is short of what the steps beside it are; of the table's own motion where a scale has it.
+std::vector<double> short_of(const Recording& run, double count_m) {
+  const auto shown = run.at(channel::position_m), table = run.at(channel::scale_position_m);
+  std::vector<double> step(shown.size(), 0.0), lost(shown.size(), 0.0);
+  for (std::size_t k = 1; k < shown.size(); ++k)
+    step[k] = (shown[k] - shown[k - 1] - (table.empty() ? 0.0 : table[k] - table[k - 1])) / count_m;
+  for (std::size_t k = beside + 1; k + beside < shown.size(); ++k) {
+    std::array<double, 2 * beside> around{};
+    std::copy_n(step.begin() + static_cast<std::ptrdiff_t>(k - beside), beside, around.begin());
+    std::copy_n(step.begin() + static_cast<std::ptrdiff_t>(k + 1), beside, around.begin() + beside);
+    std::ranges::sort(around);
+    lost[k] = 0.5 * (around[beside - 1] + around[beside]) - step[k];
+  }
+  return lost;
+}
+
+std::vector<Jump> jumps_of(const Recording& run, const plant::AxisParameters& axis) {
+  constexpr double least_counts = 5.0, least_sigmas = 10.0;
+  const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
+  const auto lost = short_of(run, count_m);
+  std::vector<double> size(lost.size());
+  std::ranges::transform(lost, size.begin(), [](double one) { return std::abs(one); });
+  const double limit = std::max(least_counts, least_sigmas * 1.4826 * middle_of(size));
+  std::vector<Jump> found;
+  for (std::size_t k = 0; k < lost.size(); ++k)
+    if (size[k] > limit) found.push_back({k, lost[k], run.at(channel::position_m)[k] / axis.axis.lead_m});
+  return found;
+}
+
+/// Those of at least half the size; smaller ones are what the motion does where it jerks.
+std::vector<Jump> as_large(const std::vector<Jump>& jumps, double counts) {
+  std::vector<Jump> kept;
+  std::ranges::copy_if(jumps, std::back_inserter(kept),
+                       [&](const Jump& one) { return std::abs(one.counts) >= 0.5 * std::abs(counts); });
+  return kept;
+}
+
+double size_of(const std::vector<Jump>& jumps) {
+  if (jumps.empty()) return 0.0;
+  const auto largest = std::ranges::max_element(jumps, {}, [](const Jump& one) { return std::abs(one.counts); });
+  std::vector<double> sizes;
+  for (const Jump& one : as_large(jumps, largest->counts)) sizes.push_back(one.counts);
+  return std::round(middle_of(std::move(sizes)));
+}
+
+bool alike(const Jump& one, double counts) {
+  constexpr double share = 0.2;
+  return std::abs(one.counts - counts) <= share * std::abs(counts);
+}
+
+/// Of one size, and not where the shaft passes one mark.
+bool of_its_own(const std::vector<Jump>& jumps, double counts) {
+  constexpr std::size_t least_moments = 4;
+  constexpr double most_others = 0.1, at_a_mark = 0.9;
+  if (jumps.size() < least_moments) return false;
+  double others = 0.0;
+  std::complex<double> mark = 0.0;
+  for (const Jump& one : jumps) {
+    if (!alike(one, counts)) others += 1.0;
+    mark += std::polar(1.0, 2.0 * std::numbers::pi * one.rev);
+  }
+  const auto all = static_cast<double>(jumps.size());
+  return others <= most_others * all && std::abs(mark) < at_a_mark * all;
+}
+
+void give_back(Recording& run, const plant::AxisParameters& axis, double counts) {
+  const double lost_m = counts * axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
+  const auto jumps = jumps_of(run, axis);
+  for (const auto name : {channel::position_m, channel::reference_m})
+    if (const auto found = run.channels.find(name); found != run.channels.end())
+      for (const Jump& jump : jumps)
+        for (std::size_t k = jump.row; alike(jump, counts) && k < found->second.size(); ++k) found->second[k] += lost_m;
+}
+
+}  // namespace
+
+std::optional<LostCounts> give_back_lost_counts(Case& data) {
+  std::vector<Jump> all;
+  double time_s = 0.0;
+  for (const auto& run : data.fit) {
+    std::ranges::copy(jumps_of(run, data.axis), std::back_inserter(all));
+    time_s += run.sample_s * static_cast<double>(run.at(channel::position_m).size());
+  }
+  const double counts = size_of(all);
+  const auto lost = as_large(all, counts);
+  if (!of_its_own(lost, counts)) return std::nullopt;
+  for (auto* runs : {&data.fit, &data.holdout})
+    for (auto& run : *runs) give_back(run, data.axis, counts);
+  return LostCounts{counts, static_cast<double>(lost.size()) / time_s, static_cast<int>(lost.size())};
+}
+
+}  // namespace feedtwin::tools::diagnosis
