@@ -49,6 +49,11 @@ bool easily_confused(const Hypothesis& one, const Hypothesis& other) {
          std::ranges::find(other.confused_with, one.id) != other.confused_with.end();
 }
 
+bool told_by_size_alone(const Active& active) {
+  const auto far = active.hypothesis->far_from_beside;
+  return far != nullptr && far(active.q);
+}
+
 bool alike(const Active& one, const Active& other, double sample_s) {
   const auto small = [sample_s](const Active& a) {
     return a.hypothesis->too_small_to_tell != nullptr && a.hypothesis->too_small_to_tell(a.q, sample_s);

@@ -104,7 +104,8 @@ struct Hypothesis {
   /// Is this size a finding? Smaller ones stay in the model as nuisances, since they explain how the channels read.
   bool (*finding)(std::span<const double> q) = nullptr;
   std::vector<std::string_view> confused_with;
-  std::string_view always_beside = {};  ///< obeys the same equation: always an alternative
+  std::string_view always_beside = {};  ///< obeys the same equation: an alternative whatever the data say,
+  bool (*far_from_beside)(std::span<const double> q) = nullptr;  ///< but where this size is none of its own
   /// So small that what it is confused with does the same to every sample, if that is as small.
   bool (*too_small_to_tell)(std::span<const double> q, double sample_s) = nullptr;
   /// The grid where it depends on where the axis was; in place of `shapes`.
@@ -150,6 +151,8 @@ struct Active {
 [[nodiscard]] bool moves_friction(const Hypothesis& hypothesis, const std::vector<Active>& effects);
 /// Does either name the other as what it is confused with?
 [[nodiscard]] bool easily_confused(const Hypothesis& one, const Hypothesis& other);
+/// Of a size that is none of what obeys the same equation?
+[[nodiscard]] bool told_by_size_alone(const Active& active);
 /// Are both so small that they do the same to every sample?
 [[nodiscard]] bool alike(const Active& one, const Active& other, double sample_s);
 /// Working parameters that are fitted.

@@ -123,11 +123,13 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
   effect.by_closed_loop = one.by_closed_loop;
   effect.intervals = acts_in(effect, model);
   for (const auto* rival : one.rivals) effect.alternatives.emplace_back(rival->id);
+  const auto now = std::ranges::find(fit.model.effects, effect.hypothesis, &Active::hypothesis);
   const auto beside = std::string(effect.hypothesis->always_beside);
-  if (!beside.empty() && std::ranges::find(effect.alternatives, beside) == effect.alternatives.end())
+  const bool far = !beside.empty() && told_by_size_alone(*now);
+  if (!beside.empty() && !far && std::ranges::find(effect.alternatives, beside) == effect.alternatives.end())
     effect.alternatives.push_back(beside);
   effect.sentence = sentence_of(effect);
-  const auto now = std::ranges::find(fit.model.effects, effect.hypothesis, &Active::hypothesis);
+  if (far) effect.sentence += fmt::format(" Only its size tells it from {}, which obeys the same equation.", beside);
   if (effect.hypothesis->line_of != nullptr)
     effect.sentence += phases_agree(*now) ? " All runs share its phase."
                                           : " Each run has a phase of its own; a held-out run's is taken from that run.";

@@ -59,5 +59,16 @@ TEST(Hypothesis, ALagAndADelayAreAlikeOnlyWhereBothAreGoneWithinASample) {
   EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("frictional_lag", 1.2e-4), sample_s));
 }
 
+TEST(ToldBySizeAlone, SlowLinesAreTheFloorsAndFastOnesTheTeeths) {
+  const auto alone = [](std::string_view id, double frequency_Hz) {
+    return told_by_size_alone({&hypothesis(id), {1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, frequency_Hz}});
+  };
+  EXPECT_TRUE(alone("floor_vibration", 17.0));
+  EXPECT_TRUE(alone("process_force", 60.0));
+  EXPECT_FALSE(alone("floor_vibration", 38.0)) << "where floors shake and teeth pass";
+  EXPECT_FALSE(alone("process_force", 42.0));
+  EXPECT_FALSE(told_by_size_alone({&hypothesis("cogging"), {0.01, 0.01, 8.0}}));
+}
+
 }  // namespace
 }  // namespace feedtwin

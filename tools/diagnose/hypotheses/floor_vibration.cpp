@@ -17,6 +17,11 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"acceleration_m_per_s2", line_amplitude(q) / axis.guide_mass_kg}, {"frequency_Hz", q.back()}};
 }
 
+/// Floors shake at 10 to 40 Hz; teeth seldom pass as slowly as this.
+bool slower_than_teeth(std::span<const double> q) {
+  return q.back() < 30.0;
+}
+
 }  // namespace
 
 Hypothesis floor_vibration() {
@@ -32,6 +37,7 @@ Hypothesis floor_vibration() {
 
           .confused_with = {"process_force"},
           .always_beside = "process_force",
+          .far_from_beside = slower_than_teeth,
           .line_of = line_of_run,
           .friction = false};
 }

@@ -17,6 +17,11 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"amplitude_N", line_amplitude(q)}, {"frequency_Hz", q.back()}};
 }
 
+/// Than the 10 to 40 Hz of a floor.
+bool faster_than_a_floor(std::span<const double> q) {
+  return q.back() > 45.0;
+}
+
 }  // namespace
 
 Hypothesis process_force() {
@@ -32,6 +37,7 @@ Hypothesis process_force() {
 
           .confused_with = {"floor_vibration"},
           .always_beside = "floor_vibration",
+          .far_from_beside = faster_than_a_floor,
           .line_of = line_of_run,
           .friction = false};
 }
