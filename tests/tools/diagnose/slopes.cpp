@@ -48,12 +48,12 @@ class SlopesOfRandomRuns : public testing::TestWithParam<unsigned> {
     run_.asked = 0;
   }
   static MatrixXd differences_somewhere(double step) { return forward_differences(VectorXd::Random(unknowns), step); }
-  std::vector<tools::Simulated> simulated(std::size_t run, const MatrixXd& points) {
-    return slopes_.simulated(run, points, [this](const MatrixXd& asked) { return run_(asked); });
+  std::vector<tools::Simulated> simulated(std::size_t run, const MatrixXd& points, int shared = numbers) {
+    return slopes_.simulated(run, points, shared, [this](const MatrixXd& asked) { return run_(asked); });
   }
 
   LinearRun run_;
-  Slopes slopes_{2, numbers};
+  Slopes slopes_{2};
 };
 
 TEST_P(SlopesOfRandomRuns, OnlyTheEffectsOwnUnknownsAreSimulatedAgainAndTheResultIsTheSame) {
@@ -67,6 +67,31 @@ TEST_P(SlopesOfRandomRuns, OnlyTheEffectsOwnUnknownsAreSimulatedAgainAndTheResul
     for (std::size_t k = 0; k < truth[p].torque_Nm.size(); ++k)
       EXPECT_NEAR(found[p].torque_Nm[k], truth[p].torque_Nm[k], 1e-12) << p;
   }
+}
+
+TEST_P(SlopesOfRandomRuns, WhereTheEffectsAreTheSameTheirsAreKnownToo) {
+  const MatrixXd points = differences_somewhere(1e-3);
+  const auto found = simulated(1, points, unknowns);
+  EXPECT_EQ(run_.asked, 1);
+  const auto truth = run_(points);
+  for (std::size_t p = 0; p < found.size(); ++p)
+    for (std::size_t k = 0; k < truth[p].torque_Nm.size(); ++k)
+      EXPECT_NEAR(found[p].torque_Nm[k], truth[p].torque_Nm[k], 1e-12) << p;
+}
+
+TEST_P(SlopesOfRandomRuns, OfAnUnknownThatIsNewItsPointIsSimulated) {
+  const Slopes fewer = [&] {
+    LinearRun run;
+    run.map = run_.map.leftCols(unknowns - 1);
+    Slopes made(1);
+    const MatrixXd points = forward_differences(VectorXd::Random(unknowns - 1), 1e-3);
+    made.learn(0, points, run(points));
+    return made;
+  }();
+  const MatrixXd points = differences_somewhere(1e-3);
+  const auto found = fewer.simulated(0, points, unknowns, [this](const MatrixXd& asked) { return run_(asked); });
+  EXPECT_EQ(run_.asked, 2);
+  EXPECT_EQ(found.size(), 1U + unknowns);
 }
 
 TEST_P(SlopesOfRandomRuns, OfARunThatWasNotSeenEveryPointIsSimulated) {

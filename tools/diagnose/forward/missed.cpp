@@ -65,7 +65,7 @@ class Asked {
     with.model = settled.model;
     Ruling again = rule_with_one_more(rest, with, e, forward_, fitter_);
     if (again.value > settled.value) {
-      again.slopes = settled.slopes;
+      again.seen = settled.seen;
       again.fit = settled.fit;
       settled = std::move(again);
     }

@@ -7,6 +7,7 @@ namespace feedtwin::tools::diagnosis {
 
 Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candidate& start, const PolishSettings& settings) {
   const Unknowns unknowns(fitter, start);
+  const Index shared = unknowns.count(settings.known_effects);
   const BatchSimulator simulator = [&](const ClosedLoopRun& run, const Eigen::MatrixXd& all) {
     const auto place = static_cast<std::size_t>(&run - forward.runs().data());
     const auto simulate = [&](const Eigen::MatrixXd& points) {
@@ -14,7 +15,7 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
       for (Index i = 0; i < points.cols(); ++i) axes.push_back(extended(unknowns.at(points.col(i))).of(place));
       return forward.simulate(run, axes);
     };
-    auto simulated = settings.known != nullptr ? settings.known->simulated(place, all, simulate) : simulate(all);
+    auto simulated = settings.known != nullptr ? settings.known->simulated(place, all, shared, simulate) : simulate(all);
     if (settings.learned != nullptr) settings.learned->learn(place, all, simulated);
     return simulated;
   };

@@ -19,7 +19,8 @@ struct PolishSettings {
   int rounds = 2, most_iterations = 4;
   double least_fall_nats = 0.5;  ///< what a number costs that is off by its own deviation; the last step is taken
   bool coloured_from_start = false, intervals = true;
-  const Slopes* known = nullptr;  ///< of the nominal model's numbers, not seen anew
+  const Slopes* known = nullptr;  ///< not seen anew: of the nominal model's numbers,
+  std::size_t known_effects = 0;  ///< and of the numbers of so many effects, the first
   Slopes* learned = nullptr;      ///< takes the slopes that this polish sees, the last of them
 };
 

@@ -1,5 +1,7 @@
 #include "tools/diagnose/forward/ruling.h"
 
+#include <algorithm>
+
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/polish.h"
 
@@ -25,20 +27,33 @@ Candidate with_numbers_of(const Candidate& other, Candidate model) {
   return model;
 }
 
-/// @param known slopes of an explanation beside it; nullptr: seen anew
+std::vector<const Hypothesis*> effects_of(const Candidate& model) {
+  std::vector<const Hypothesis*> all;
+  for (const auto& effect : model.effects) all.push_back(effect.hypothesis);
+  return all;
+}
+
+std::size_t alike_to_begin_with(const std::vector<const Hypothesis*>& some, const std::vector<const Hypothesis*>& others) {
+  return static_cast<std::size_t>(std::ranges::mismatch(some, others).in1 - some.begin());
+}
+
+/// @param known slopes of an explanation beside it; none: seen anew
+/// @param of_effects are those of the effects' numbers known too?
 Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
-                int most_iterations, std::shared_ptr<const Slopes> known) {
+                int most_iterations, SeenSlopes known, bool of_effects = false) {
   PolishSettings settings;
   settings.rounds = 1;
   settings.most_iterations = most_iterations;
   settings.least_fall_nats = 2.0;
   settings.coloured_from_start = true;
   settings.intervals = false;
+  const auto effects = effects_of(start);
   std::shared_ptr<Slopes> learned;
-  if (!known) learned = std::make_shared<Slopes>(forward.runs().size(), static_cast<Index>(fitter.base().size()));
-  settings.known = known.get();
+  if (!known.slopes) learned = std::make_shared<Slopes>(forward.runs().size());
+  settings.known = known.slopes.get();
+  if (of_effects) settings.known_effects = alike_to_begin_with(known.effects, effects);
   settings.learned = learned.get();
-  Ruling ruling{fit, start, likelihood(forward, extended(start)), 0.0, known ? std::move(known) : learned};
+  Ruling ruling{fit, start, likelihood(forward, extended(start)), 0.0, learned ? SeenSlopes{learned, effects} : known};
   const Candidate better = polish(forward, fitter, start, settings).model;
   if (auto found = likelihood(forward, extended(better)); found.total() > ruling.likelihood.total())
     ruling.model = better, ruling.likelihood = std::move(found);
@@ -50,12 +65,12 @@ Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forw
 }  // namespace
 
 Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
-  return polished(fit, fit.model, forward, fitter, first_iterations, nullptr);
+  return polished(fit, fit.model, forward, fitter, first_iterations, {});
 }
 
 Ruling rule_again(const Ruling& before, const ForwardModel& forward, const Fitter& fitter, SlopesOf slopes) {
   return polished(before.fit, before.model, forward, fitter, further_iterations,
-                  slopes == SlopesOf::before ? before.slopes : nullptr);
+                  slopes == SlopesOf::before ? before.seen : SeenSlopes{});
 }
 
 Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
@@ -64,7 +79,11 @@ Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& for
   const double own = likelihood(forward, extended(fit.model)).total();
   const bool better = likelihood(forward, extended(beside)).total() > own;
   return polished(fit, better ? beside : fit.model, forward, fitter, further_iterations,
-                  slopes == SlopesOf::before ? before.slopes : nullptr);
+                  slopes == SlopesOf::before ? before.seen : SeenSlopes{});
+}
+
+Ruling glance_at_one_more(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
+  return polished(fit, with_numbers_of(before.model, fit.model), forward, fitter, further_iterations, before.seen, true);
 }
 
 Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const ForwardModel& forward,
@@ -87,7 +106,7 @@ void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitt
     const bool better_beside = likelihood(forward, extended(beside)).total() > behind.likelihood.total();
     if (!better_beside && ahead.value - behind.value > hopeless_nats) return;
     const auto further_from = [&](const Candidate& start) {
-      return polished(behind.fit, start, forward, fitter, further_iterations, nullptr);
+      return polished(behind.fit, start, forward, fitter, further_iterations, {});
     };
     Ruling further = further_from(better_beside ? beside : behind.model);
     if (further.value < behind.value + of_consequence_nats) {

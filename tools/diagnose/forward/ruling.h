@@ -16,12 +16,18 @@ inline constexpr double clearly_nats = 100.0, clearly_deviations = 2.4;
 /// What a polish must bring to go on with it.
 inline constexpr double of_consequence_nats = 10.0;
 
+/// Slopes and the effects of the model that they were seen with.
+struct SeenSlopes {
+  std::shared_ptr<const Slopes> slopes;  ///< none yet: nullptr
+  std::vector<const Hypothesis*> effects;
+};
+
 struct Ruling {
   Fit fit;          ///< by the inverse model
   Candidate model;  ///< polished in closed loop
   Likelihood likelihood;
-  double value = 0.0;                    ///< nats, less what its parameters cost
-  std::shared_ptr<const Slopes> slopes;  ///< of the nominal model's numbers, as the first explanation's polish saw them
+  double value = 0.0;  ///< nats, less what its parameters cost
+  SeenSlopes seen;     ///< by the first explanation's polish
 };
 
 [[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
@@ -33,6 +39,9 @@ enum class SlopesOf { before, anew };
 /// Another explanation, from its own numbers or from those of one that was polished before, whichever are likelier.
 [[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
                                  SlopesOf slopes);
+/// One effect more than before, its last, from the numbers before and along all slopes that were seen then: what it may bring.
+[[nodiscard]] Ruling glance_at_one_more(const Ruling& before, const Fit& fit, const ForwardModel& forward,
+                                        const Fitter& fitter);
 /// One effect more than before. Where that goes astray, since without any of it the runs are likelier, from none.
 /// @param more its place among the fit's effects
 [[nodiscard]] Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const ForwardModel& forward,

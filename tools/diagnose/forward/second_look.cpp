@@ -164,7 +164,7 @@ class SecondLook {
 
   /// A few steps along the known slopes of the numbers tell whether to ask at all.
   [[nodiscard]] bool worth_asking(const Fit& with, const Ruling& now, double shared) const {
-    const Ruling glance = rule_beside(now, with, forward_, fitter_, SlopesOf::before);
+    const Ruling glance = glance_at_one_more(now, with, forward_, fitter_);
     const double least = with.model.effects.back().hypothesis->told_by_runs_nats.value_or(least_nats);
     return glance.value - now.value > shared + glance_share * least;
   }

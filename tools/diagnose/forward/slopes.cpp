@@ -1,5 +1,6 @@
 #include "tools/diagnose/forward/slopes.h"
 
+#include <algorithm>
 #include <array>
 
 namespace feedtwin::tools::diagnosis {
@@ -48,18 +49,20 @@ void Slopes::learn(std::size_t run, const MatrixXd& points, const std::vector<Si
   if (!are_forward_differences(points)) return;
   auto& known = by_run_[run];
   known.clear();
-  for (Index i = 0; i < numbers_; ++i)
+  for (Index i = 0; i < points.rows(); ++i)
     known.push_back(slope(simulated.front(), simulated[static_cast<std::size_t>(i) + 1], points(i, i + 1) - points(i, 0)));
 }
 
-std::vector<Simulated> Slopes::simulated(std::size_t run, const MatrixXd& points, const Simulator& simulate) const {
+std::vector<Simulated> Slopes::simulated(std::size_t run, const MatrixXd& points, Index shared,
+                                         const Simulator& simulate) const {
   const auto& known = by_run_[run];
   if (known.empty() || !are_forward_differences(points)) return simulate(points);
+  shared = std::min(shared, static_cast<Index>(known.size()));
   std::vector<Index> asked{0};
-  for (Index i = numbers_; i < points.rows(); ++i) asked.push_back(i + 1);
+  for (Index i = shared; i < points.rows(); ++i) asked.push_back(i + 1);
   auto found = simulate(points(Eigen::all, asked));
   std::vector<Simulated> all(static_cast<std::size_t>(points.cols()));
-  for (Index i = 0; i < numbers_; ++i) {
+  for (Index i = 0; i < shared; ++i) {
     const auto place = static_cast<std::size_t>(i);
     all[place + 1] = sum(found.front(), points(i, i + 1) - points(i, 0), known[place]);
   }

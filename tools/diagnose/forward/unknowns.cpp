@@ -52,6 +52,12 @@ std::vector<FitParameter> Unknowns::parameters() const {
   return all;
 }
 
+Eigen::Index Unknowns::count(std::size_t effects) const {
+  auto all = static_cast<Index>(fitter_.base().size());
+  for (std::size_t e = 0; e < effects; ++e) all += std::ranges::count_if(start_.effects[e].hypothesis->parameters, moves);
+  return all;
+}
+
 Candidate Unknowns::at(const Eigen::Ref<const Eigen::VectorXd>& point) const {
   Candidate candidate = start_;
   Index next = 0;

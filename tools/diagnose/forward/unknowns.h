@@ -16,6 +16,8 @@ class Unknowns {
 
   /// The nominal model's numbers, then the effects' own.
   [[nodiscard]] std::vector<FitParameter> parameters() const;
+  /// Of the nominal model and the first so many effects.
+  [[nodiscard]] Eigen::Index count(std::size_t effects) const;
   /// The start with these numbers.
   [[nodiscard]] Candidate at(const Eigen::Ref<const Eigen::VectorXd>& point) const;
   /// Covariance of what a Fit has, in its order and units: zero where the closed loop says nothing.
