@@ -54,7 +54,7 @@ FeedAxis::Drive FeedAxis::accept(const AxisCommand& command) const noexcept {
     return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
   };
   return {within(command.torque_Nm, parameters_.axis.torque_limit_Nm),
-          within(command.cutting_force_N, largest_cutting_force_N)};
+          within(command.cutting_force_N, largest_cutting_force_N), command.setpoint_m_per_s};
 }
 
 double FeedAxis::electrical_loss_J(const AxisLosses<double>& losses, double duration_s) const noexcept {
@@ -65,11 +65,12 @@ double FeedAxis::electrical_loss_J(const AxisLosses<double>& losses, double dura
          motor.electrical_quadratic_Ws2_per_m2.neg * losses.speed_travel_neg_m2_per_s;
 }
 
-TickStart FeedAxis::tick_start(double tick_s, double span_s) const noexcept {
+TickStart FeedAxis::tick_start(const Drive& drive, double tick_s, double span_s) const noexcept {
   return {.time_s = elapsed_s_ - placed_s_,
           .tick_s = tick_s,
           .span_s = span_s,
           .state = state_,
+          .setpoint_m_per_s = std::isfinite(drive.setpoint_m_per_s) ? drive.setpoint_m_per_s : state_.velocity_m_per_s,
           .screw_friction_J = losses_.screw_J - screw_J_when_placed_};
 }
 
@@ -116,7 +117,7 @@ const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noe
   EffectChain& chain = *chain_;
   if (chain.remembers_forces()) chain.take_forces(true_forces(drive));
   const double rippled_J = chain.motor_torque_J();
-  const double torque_Nm = chain.start_tick(drive.torque_Nm, drive.cutting_force_N, tick_start(tick_s, tick_s));
+  const double torque_Nm = chain.start_tick(drive.torque_Nm, drive.cutting_force_N, tick_start(drive, tick_s, tick_s));
   const double motor_force_N = torque_Nm * model_.transmission_rad_per_m;
   const double before_m = state_.position_m;
   const double table_before_m = table_position_m();
@@ -158,7 +159,7 @@ ForceSignals FeedAxis::true_forces(const Drive& drive) const noexcept {
   double torque_Nm = drive.torque_Nm;
   EffectChain::Instant extra{};
   if (chain_) {
-    torque_Nm = chain_->torque_Nm(torque_Nm, tick_start(tick_s_, instant_s));
+    torque_Nm = chain_->torque_Nm(torque_Nm, tick_start(drive, tick_s_, instant_s));
     extra = chain_->instant(state_, torque_Nm, drive.cutting_force_N);
   }
   const bool hanging = chain_ && chain_->has_table();

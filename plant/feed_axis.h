@@ -56,10 +56,10 @@ class FeedAxis {
   FeedAxis(const AxisParameters& nominal, const AxisParameters& true_axis, Resolution resolution);
 
   struct Drive {
-    double torque_Nm, cutting_force_N;
+    double torque_Nm, cutting_force_N, setpoint_m_per_s;
   };
   [[nodiscard]] Drive accept(const AxisCommand& command) const noexcept;
-  [[nodiscard]] TickStart tick_start(double tick_s, double span_s) const noexcept;
+  [[nodiscard]] TickStart tick_start(const Drive& drive, double tick_s, double span_s) const noexcept;
   const AxisSignals& step_with_effects(const Drive& drive, double tick_s) noexcept;
   double account(const AxisLosses<double>& taken, double work_J, double cutting_J, double tick_s) noexcept;
   void show(const SensedTravel& travel, std::int64_t counts) noexcept;

@@ -2,6 +2,7 @@
 // What passes between a controller and the plant in one tick. SI units; the unit is in the name.
 
 #include <cstdint>
+#include <limits>
 
 namespace feedtwin::plant {
 
@@ -9,6 +10,8 @@ namespace feedtwin::plant {
 struct AxisCommand {
   double torque_Nm = 0.0;        ///< torque command to the drive
   double cutting_force_N = 0.0;  ///< against positive motion of the table
+  /// Velocity that the drive is told to reach; not a number: it is told a torque alone.
+  double setpoint_m_per_s = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Out of the plant at the end of a tick.

@@ -3,7 +3,8 @@
 //
 //   T_m = T_cmd + T_c tanh(v / v_0)
 //
-// T_c = torque_Nm, v_0 = speed_m_per_s, v the velocity at the start of the tick.
+// T_c = torque_Nm, v_0 = speed_m_per_s, v the velocity that the drive is told to reach, as drives compensate: what follows
+// the measured one feeds itself at rest. Where the drive is told a torque alone v is the axis's, at the start of the tick.
 
 #include <array>
 #include <cmath>
@@ -17,7 +18,7 @@ class HiddenFrictionCompensation final : public Effect {
   HiddenFrictionCompensation(const EffectContext& /*context*/, const EffectSetting& setting)
       : torque_Nm_(setting.values[0]), per_speed_s_per_m_(1.0 / setting.values[1]) {}
   [[nodiscard]] double torque_Nm(double torque_Nm, const TickStart& start) const noexcept override {
-    return torque_Nm + torque_Nm_ * std::tanh(start.state.velocity_m_per_s * per_speed_s_per_m_);
+    return torque_Nm + torque_Nm_ * std::tanh(start.setpoint_m_per_s * per_speed_s_per_m_);
   }
 
  private:

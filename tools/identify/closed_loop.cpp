@@ -19,6 +19,17 @@ double start_velocity(std::span<const double> position_m, const plant::AxisParam
   return moves && slope_m * first_m > 0.0 ? slope_m / tick_s : 0.0;
 }
 
+/// Over some rows before and after: the encoder's grid alone must not move a drive at rest.
+std::vector<double> velocity_of(std::span<const double> position_m, double tick_s) {
+  constexpr std::size_t beside = 3;
+  std::vector<double> all(position_m.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t from = i < beside ? 0 : i - beside, to = std::min(i + beside, all.size() - 1);
+    all[i] = (position_m[to] - position_m[from]) / (static_cast<double>(to - from) * tick_s);
+  }
+  return all;
+}
+
 /// Eqs. 7 and 11 at a speed, without the idle power.
 double drive_power_W(const plant::MotorParameters& motor, double force_N, double v) {
   const bool forward = v > 0.0;
@@ -62,6 +73,8 @@ ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParame
     : recording_(&recording), view_{}, nominal_(nominal) {
   if (controller) reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
   const auto position_m = recording.at(channel::position_m);
+  setpoint_m_per_s_ = velocity_of(position_m, recording.sample_s);
+  for (std::size_t i = 0; i < reference_.size(); ++i) setpoint_m_per_s_[i] = reference_[i].velocity_m_per_s;
   view_ = {.samples = recording.size(),
            .tick_s = recording.sample_s,
            .torque_Nm = recording.at(channel::torque_cmd_Nm).data(),
@@ -98,7 +111,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
     out.torque_Nm[i] = view.reference != nullptr
                            ? cascade.torque_Nm(view.reference[i], shown_m, view.tick_s)
                            : view.torque_Nm[i] + stand_in.correction_N(view.position_m[i] - shown_m) / transmission;
-    const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i]};
+    const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i], .setpoint_m_per_s = run.setpoint_m_per_s()[i]};
     if (sensors) {
       const auto forces = axis.force_sensors(command);
       out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;

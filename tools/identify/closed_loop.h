@@ -31,10 +31,13 @@ class ClosedLoopRun {
   [[nodiscard]] lanes::RecordView view() const noexcept;
   [[nodiscard]] const plant::AxisParameters& nominal() const noexcept { return nominal_; }
   [[nodiscard]] bool has_controller() const noexcept { return !reference_.empty(); }
+  /// Row by row what the drive was told to reach: the reference's velocity, or in its place that of the recorded motion.
+  [[nodiscard]] std::span<const double> setpoint_m_per_s() const noexcept { return setpoint_m_per_s_; }
 
  private:
   const Recording* recording_;
   std::vector<controllers::Reference> reference_;
+  std::vector<double> setpoint_m_per_s_;
   lanes::RecordView view_;
   plant::AxisParameters nominal_;
 };

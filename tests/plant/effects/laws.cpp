@@ -186,6 +186,17 @@ TEST(Laws, FrictionLagsBehindSpeed) {
   EXPECT_GT(body.x, 0.02);
 }
 
+TEST(Laws, HiddenCompensationFollowsWhatTheDriveIsToldToReach) {
+  AxisParameters p = source_axis();
+  p.effects = {{"hidden_friction_compensation", {0.03, 1e-3}, {}}};
+  for (const double setpoint : {-0.05, -5e-4, 0.0, 2e-3}) {
+    FeedAxis axis(p);
+    EXPECT_NEAR(axis.step({.setpoint_m_per_s = setpoint}, tick_s).torque_Nm, 0.03 * std::tanh(setpoint / 1e-3), 1e-12);
+  }
+  FeedAxis told_a_torque_alone(p);
+  EXPECT_EQ(told_a_torque_alone.step({}, tick_s).torque_Nm, 0.0) << "at rest";
+}
+
 TEST(Laws, ScaleShowsTheGeometry) {
   AxisParameters p = source_axis();
   p.effects = {

@@ -68,8 +68,9 @@ Series recorded_by(const Move& move, const plant::AxisParameters& parameters, co
   for (std::size_t k = 0; k < ticks; ++k) {
     const auto& now = axis.signals();
     const double shown_m = axis.encoder().position_m(now.encoder_counts);
-    const plant::AxisCommand command{
-        .torque_Nm = cascade.torque_Nm(motion->at(static_cast<double>(k) * sample_s), shown_m, sample_s)};
+    const auto wanted = motion->at(static_cast<double>(k) * sample_s);
+    const plant::AxisCommand command{.torque_Nm = cascade.torque_Nm(wanted, shown_m, sample_s),
+                                     .setpoint_m_per_s = wanted.velocity_m_per_s};
     const auto sensed = axis.force_sensors(command);
     torque.push_back(command.torque_Nm);
     torque_sensor.push_back(sensed.torque_sensor_Nm);
