@@ -77,11 +77,7 @@ class Diagnosing {
     const auto names_confirmed = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_, std::move(settled_));
     if (!same_names(names_confirmed)) ask_the_others_again();
-    // a name that every unseen fold bears out stays, whatever else is left over
-    const bool certain = std::ranges::any_of(found_.found, [](const Found& one) {
-      return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
-    });
-    unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_) && !certain;
+    unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_);
     if (unknown_) return;
     forward_.learn_meter_noise(extended(as_settled()));
     if (!same_names(names_before)) found_.last = screen(fitter_, fit_, found_.whitening);

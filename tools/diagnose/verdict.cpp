@@ -22,6 +22,20 @@ const char* verdict_of(const Diagnosis& result) {
   return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
 }
 
+namespace {
+
+/// A name that every unseen fold bears out stays, whatever else is left over; unless nearly all is, as it was before.
+bool certain(const SearchResult& found, const Structure& before, const Structure& after) {
+  constexpr double nearly_all = 0.8;
+  const bool held = std::ranges::any_of(found.found, [](const Found& one) {
+    return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
+  });
+  const bool hardly_helps = after.structured_N() > nearly_all * std::max(before.structured_N(), after.remainder_N);
+  return held && !hardly_helps;
+}
+
+}  // namespace
+
 bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                           const std::function<void(std::string_view)>& progress) {
   constexpr double least_share = 0.1, least_N = 0.5, unexplained = 0.1;
@@ -43,7 +57,7 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
       (after.share > least_share && after.structured_N() > least_N) ||
       (after.share > most_of_it && after.structured_N() > least_of_most_N) ||
       (nothing_named && after.share > where_nothing_is_named && after.structured_N() > least_where_nothing_is_named_N);
-  return enough && structure > unexplained * (structure + explained);
+  return enough && structure > unexplained * (structure + explained) && !certain(found, before, after);
 }
 
 bool rests_on_force(const Hypothesis& h) {

@@ -47,6 +47,29 @@ TEST(BeyondTheCatalogue, MuchStructureIsUnknownBesideANameToo) {
   EXPECT_TRUE(much.with_a_name);
 }
 
+/// Beside a damaged spot, with so much of its height told and borne out by every unseen fold.
+bool unknown_with_told(double told_N) {
+  constexpr double centre_m = 0.0, half_width_m = 0.004;
+  auto truth = plant::source_axis();
+  truth.effects.push_back(
+      tests::effect("local_friction", {{"height_N", 60.0}, {"centre_m", centre_m}, {"half_width_m", half_width_m}}));
+  const tools::Case data = tests::short_case(truth, plant::source_axis());
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Fitter fitter(model, data.axis);
+  const Active told{&hypothesis("local_friction"), {told_N, centre_m, half_width_m}};
+  SearchResult found;
+  found.recalibrated.residual = model.residual(data.axis, {});
+  auto& one = found.found.emplace_back();
+  one.effect = told;
+  one.held_everywhere = true;
+  return beyond_the_catalogue(fitter, found, {data.axis, {told}}, [](std::string_view) {});
+}
+
+TEST(BeyondTheCatalogue, ANameThatEveryFoldBearsOutStaysUnlessItHardlyHelps) {
+  EXPECT_FALSE(unknown_with_told(30.0));
+  EXPECT_TRUE(unknown_with_told(3.0));
+}
+
 TEST(Verdict, AGravityThatIsToldIsARecalibrationWhateverIsSuspected) {
   Diagnosis result;
   result.suspects.push_back({.hypothesis = &hypothesis("hard_stop"), .model = {}});

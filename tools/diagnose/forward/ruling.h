@@ -39,7 +39,8 @@ enum class SlopesOf { before, anew };
 /// Another explanation, from its own numbers or from those of one that was polished before, whichever are likelier.
 [[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
                                  SlopesOf slopes);
-/// One effect more than before, its last, from the numbers before and along all slopes that were seen then: what it may bring.
+/// One effect more than before, its last, from the numbers before and along all slopes that were seen then: what it may
+/// bring.
 [[nodiscard]] Ruling glance_at_one_more(const Ruling& before, const Fit& fit, const ForwardModel& forward,
                                         const Fitter& fitter);
 /// One effect more than before. Where that goes astray, since without any of it the runs are likelier, from none.
