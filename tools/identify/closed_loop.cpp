@@ -19,14 +19,18 @@ double start_velocity(std::span<const double> position_m, const plant::AxisParam
   return moves && slope_m * first_m > 0.0 ? slope_m / tick_s : 0.0;
 }
 
-/// Over some rows before and after: the encoder's grid alone must not move a drive at rest.
-std::vector<double> velocity_of(std::span<const double> position_m, double tick_s) {
-  constexpr std::size_t beside = 3;
+/// From the rows before and after; over some more where that is no more than the encoder's grid, which must not move a drive
+/// at rest.
+std::vector<double> velocity_of(std::span<const double> position_m, double count_m, double tick_s) {
+  constexpr std::size_t near = 1, far = 5;
   std::vector<double> all(position_m.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::size_t from = i < beside ? 0 : i - beside, to = std::min(i + beside, all.size() - 1);
-    all[i] = (position_m[to] - position_m[from]) / (static_cast<double>(to - from) * tick_s);
-  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const std::size_t beside : {near, far}) {
+      const std::size_t from = i < beside ? 0 : i - beside, to = std::min(i + beside, all.size() - 1);
+      const double moved_m = position_m[to] - position_m[from];
+      all[i] = moved_m / (static_cast<double>(to - from) * tick_s);
+      if (std::abs(moved_m) > 1.5 * count_m) break;
+    }
   return all;
 }
 
@@ -73,7 +77,8 @@ ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParame
     : recording_(&recording), view_{}, nominal_(nominal) {
   if (controller) reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
   const auto position_m = recording.at(channel::position_m);
-  setpoint_m_per_s_ = velocity_of(position_m, recording.sample_s);
+  const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
+  setpoint_m_per_s_ = velocity_of(position_m, count_m, recording.sample_s);
   for (std::size_t i = 0; i < reference_.size(); ++i) setpoint_m_per_s_[i] = reference_[i].velocity_m_per_s;
   view_ = {.samples = recording.size(),
            .tick_s = recording.sample_s,
