@@ -40,7 +40,7 @@ std::size_t alike_to_begin_with(const std::vector<const Hypothesis*>& some, cons
 /// @param known slopes of an explanation beside it; none: seen anew
 /// @param of_effects are those of the effects' numbers known too?
 Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
-                int most_iterations, SeenSlopes known, bool of_effects = false) {
+                int most_iterations, const SeenSlopes& known, bool of_effects = false) {
   PolishSettings settings;
   settings.rounds = 1;
   settings.most_iterations = most_iterations;
