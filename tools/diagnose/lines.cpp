@@ -6,6 +6,9 @@
 #include <numbers>
 #include <optional>
 #include <unsupported/Eigen/FFT>
+#include <utility>
+
+#include "tools/median.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -42,8 +45,7 @@ std::optional<double> strongest_line(const Rows& rows) {
   for (Index i = std::max<Index>(1, at - neighbourhood); i <= std::min(at + neighbourhood, power.size() - 1); ++i)
     if (std::abs(i - at) > own_width) beside.push_back(power[i]);
   if (beside.size() < 10) return {};
-  std::ranges::nth_element(beside, beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2));
-  if (most < above_neighbours * beside[beside.size() / 2]) return {};
+  if (most < above_neighbours * median_of(std::move(beside))) return {};
   const double before = std::sqrt(power[at - 1]), here = std::sqrt(most), after = std::sqrt(power[at + 1]);
   const double off = 0.5 * (before - after) / (before - 2.0 * here + after - 1e-300);
   return 2.0 * std::numbers::pi * (static_cast<double>(at) + std::clamp(off, -0.5, 0.5)) / static_cast<double>(length);

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/median.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
@@ -19,13 +21,6 @@ struct Jump {
   std::size_t row;     ///< first with the new reading
   double counts, rev;  ///< lost; where the shaft was
 };
-
-double middle_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// Counts that each sample's step is short of what the steps beside it are; of the table's own motion where a scale has it.
 std::vector<double> short_of(const Recording& run, double count_m) {
@@ -49,7 +44,7 @@ std::vector<Jump> jumps_of(const Recording& run, const plant::AxisParameters& ax
   const auto lost = short_of(run, count_m);
   std::vector<double> size(lost.size());
   std::ranges::transform(lost, size.begin(), [](double one) { return std::abs(one); });
-  const double limit = std::max(least_counts, least_sigmas * 1.4826 * middle_of(size));
+  const double limit = std::max(least_counts, least_sigmas * 1.4826 * median_of(size));
   std::vector<Jump> found;
   for (std::size_t k = 0; k < lost.size(); ++k)
     if (size[k] > limit) found.push_back({k, lost[k], run.at(channel::position_m)[k] / axis.axis.lead_m});
@@ -69,7 +64,7 @@ double size_of(const std::vector<Jump>& jumps) {
   const auto largest = std::ranges::max_element(jumps, {}, [](const Jump& one) { return std::abs(one.counts); });
   std::vector<double> sizes;
   for (const Jump& one : as_large(jumps, largest->counts)) sizes.push_back(one.counts);
-  return std::round(middle_of(std::move(sizes)));
+  return std::round(median_of(std::move(sizes)));
 }
 
 bool alike(const Jump& one, double counts) {

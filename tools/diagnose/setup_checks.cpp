@@ -72,6 +72,16 @@ SetupFault reversed(std::string_view name, const char* parameter) {
           {{parameter, -1.0, 0.0}}};
 }
 
+SetupFault given_back(const LostCounts& lost) {
+  return {"count_loss",
+          "sensors",
+          std::string(channel::position_m),
+          fmt::format("the encoder {} {:.0f} counts within a sample, {} times, wherever its shaft was: they are given back.",
+                      lost.counts > 0.0 ? "loses" : "gains", std::abs(lost.counts), lost.moments),
+          {{"counts_per_event", lost.counts, 0.5},
+           {"events_per_s", lost.per_s, normal_90 * lost.per_s / std::sqrt(lost.moments)}}};
+}
+
 }  // namespace
 
 std::vector<SetupFault> mend_setup(Case& data) {
@@ -95,15 +105,7 @@ std::vector<SetupFault> mend_setup(Case& data) {
        {std::pair{channel::torque_sensor_Nm, "torque_sensor_sign"}, std::pair{channel::force_sensor_N, "force_sensor_sign"}})
     if (has(name) && work_share(data.fit, name, channel::position_m) < clear) mend(name, parameter);
 
-  if (const auto lost = give_back_lost_counts(data))
-    faults.push_back({"count_loss",
-                      "sensors",
-                      std::string(channel::position_m),
-                      fmt::format("the encoder {} {:.0f} counts within a sample, {} times, wherever its shaft was: they are "
-                                  "given back.",
-                                  lost->counts > 0.0 ? "loses" : "gains", std::abs(lost->counts), lost->moments),
-                      {{"counts_per_event", lost->counts, 0.5},
-                       {"events_per_s", lost->per_s, normal_90 * lost->per_s / std::sqrt(lost->moments)}}});
+  if (const auto lost = give_back_lost_counts(data)) faults.push_back(given_back(*lost));
   if (scale) {
     const auto [factor, sigma] = slope(data.fit, channel::scale_position_m, channel::position_m);
     if (std::abs(factor - 1.0) > 0.01) {

@@ -8,20 +8,6 @@
 #include "tools/diagnose/structure.h"
 
 namespace feedtwin::tools::diagnosis {
-
-bool anything_missing(const Diagnosis& result) {
-  const auto is_physics = [](const NamedEffect& e) { return !e.hypothesis->number_of_the_model; };
-  return !result.setup.empty() || std::ranges::any_of(result.effects, is_physics);
-}
-
-const char* verdict_of(const Diagnosis& result) {
-  const auto open = [](const NamedEffect& e) { return !e.alternatives.empty() && !e.hypothesis->number_of_the_model; };
-  if (std::ranges::any_of(result.effects, open)) return "named-set";
-  if (anything_missing(result)) return "named";
-  if (!result.suspects.empty() && result.effects.empty()) return "cannot-tell";
-  return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
-}
-
 namespace {
 
 /// A name that every unseen fold bears out stays, whatever else is left over; unless nearly all is, as it was before.
@@ -35,6 +21,19 @@ bool certain(const SearchResult& found, const Structure& before, const Structure
 }
 
 }  // namespace
+
+bool anything_missing(const Diagnosis& result) {
+  const auto is_physics = [](const NamedEffect& e) { return !e.hypothesis->number_of_the_model; };
+  return !result.setup.empty() || std::ranges::any_of(result.effects, is_physics);
+}
+
+const char* verdict_of(const Diagnosis& result) {
+  const auto open = [](const NamedEffect& e) { return !e.alternatives.empty() && !e.hypothesis->number_of_the_model; };
+  if (std::ranges::any_of(result.effects, open)) return "named-set";
+  if (anything_missing(result)) return "named";
+  if (!result.suspects.empty() && result.effects.empty()) return "cannot-tell";
+  return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
+}
 
 bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                           const std::function<void(std::string_view)>& progress) {

@@ -3,6 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "tools/median.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -13,9 +16,7 @@ constexpr double clip_at_sigmas = 4.0;
 double robust_sigma(std::vector<double> values) {
   if (values.empty()) return 1.0;
   for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
+  return 1.4826 * median_of(std::move(values));
 }
 
 Vector clipped(const Vector& values, double limit) {
@@ -30,7 +31,7 @@ Vector less_steady(const InverseModel& model, const Vector& residual) {
     if (model.equations()[e].power || model.equations()[e].slip) continue;
     for (const bool forth : {true, false}) {
       std::vector<Index> rows;
-      std::vector<Eigen::RowVector3d> steady;
+      std::vector<Eigen::Vector3d> steady;
       for (const auto& s : model.segments()) {
         const Track& track = model.tracks()[s.run];
         for (Index i = 0; s.equation == e && i < s.size; ++i) {
@@ -41,8 +42,8 @@ Vector less_steady(const InverseModel& model, const Vector& residual) {
         }
       }
       if (rows.empty()) continue;
-      Eigen::MatrixX3d regressors(static_cast<Index>(rows.size()), 3);
-      for (Index i = 0; i < regressors.rows(); ++i) regressors.row(i) = steady[static_cast<std::size_t>(i)];
+      const Eigen::Matrix3Xd::ConstMapType by_column(steady.front().data(), 3, static_cast<Index>(steady.size()));
+      const Eigen::MatrixX3d regressors = by_column.transpose();
       const Vector there = residual(rows);
       out(rows) -= regressors * regressors.completeOrthogonalDecomposition().solve(there);
     }

@@ -75,11 +75,14 @@ plant::AxisParameters without_stops(plant::AxisParameters parameters) {
 ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParameters& nominal,
                              const std::optional<controllers::CascadeGains>& controller, const StandInSettings& stand_in)
     : recording_(&recording), view_{}, nominal_(nominal) {
-  if (controller) reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
   const auto position_m = recording.at(channel::position_m);
-  const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
-  setpoint_m_per_s_ = velocity_of(position_m, count_m, recording.sample_s);
-  for (std::size_t i = 0; i < reference_.size(); ++i) setpoint_m_per_s_[i] = reference_[i].velocity_m_per_s;
+  if (controller) {
+    reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
+    for (const auto& reference : reference_) setpoint_m_per_s_.push_back(reference.velocity_m_per_s);
+  } else {
+    const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
+    setpoint_m_per_s_ = velocity_of(position_m, count_m, recording.sample_s);
+  }
   view_ = {.samples = recording.size(),
            .tick_s = recording.sample_s,
            .torque_Nm = recording.at(channel::torque_cmd_Nm).data(),

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "tools/median.h"
 
 namespace feedtwin::tools {
 
@@ -62,9 +65,7 @@ double white_sigma(std::span<const double> x) {
   std::vector<double> d;
   for (std::size_t k = 3; k < x.size(); ++k) d.push_back(std::abs(x[k] - 3.0 * x[k - 1] + 3.0 * x[k - 2] - x[k - 3]));
   if (d.empty()) return 0.0;
-  const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
-  std::nth_element(d.begin(), middle, d.end());
-  return 1.4826 * *middle / std::sqrt(20.0);
+  return 1.4826 * median_of(std::move(d)) / std::sqrt(20.0);
 }
 
 }  // namespace feedtwin::tools

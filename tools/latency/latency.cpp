@@ -10,6 +10,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/udp/udp_port.h"
@@ -17,6 +18,7 @@
 #include "tools/json_option.h"
 #include "tools/latency/cyclictest.h"
 #include "tools/latency/udp_probe.h"
+#include "tools/median.h"
 #include "tools/run/plant_run.h"
 #include "tools/verb.h"
 
@@ -86,12 +88,6 @@ nlohmann::json measure_input_to_output(const Options& options) {
           {"exchanges", histogram.total()},          {"unanswered", probe.unanswered()}};
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 nlohmann::json compare(const std::vector<Pair>& pairs) {
   nlohmann::json out;
   fmt::print("\nBeside cyclictest, same core, priority and period; median of {} pairs\n", pairs.size());
@@ -103,8 +99,8 @@ nlohmann::json compare(const std::vector<Pair>& pairs) {
       theirs.push_back(pair.cyclictest_us[i]);
       ratios.push_back(pair.ours_us[i] / pair.cyclictest_us[i]);
     }
-    const double ratio = median(ratios);
-    fmt::print("  {:<6} {:>13.1f} {:>14.1f} {:>9.2f}\n", shares[i].first, median(ours), median(theirs), ratio);
+    const double ratio = median_of(ratios);
+    fmt::print("  {:<6} {:>13.1f} {:>14.1f} {:>9.2f}\n", shares[i].first, median_of(ours), median_of(theirs), ratio);
     out[shares[i].first] = {{"feedtwin_us", ours}, {"cyclictest_us", theirs}, {"median_ratio", ratio}};
   }
   return out;

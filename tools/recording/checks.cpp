@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "plant/axis_model.h"
 #include "tools/config/input_error.h"
+#include "tools/median.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -26,9 +28,7 @@ void check_order(const Recording& recording, std::span<const double> time_s) {
 void check_rate(const Recording& recording, std::span<const double> time_s, double sample_rate_Hz) {
   std::vector<double> steps(time_s.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double found_s = *middle;
+  const double found_s = median_of(std::move(steps));
   const double ratio = found_s * sample_rate_Hz;
   if (ratio > 300.0 && ratio < 3000.0) {
     fail(recording.file,

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
+
+#include "tools/median.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -91,9 +94,7 @@ MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_
   std::vector<std::size_t> spacing;
   for (std::size_t i = 1; i < meter.rows.size(); ++i) spacing.push_back(meter.rows[i] - meter.rows[i - 1]);
   if (spacing.size() >= 3) {
-    const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
-    std::nth_element(spacing.begin(), middle, spacing.end());
-    meter.window = *middle;
+    meter.window = median_of(std::move(spacing));
   } else {  // the meter showed the same all along, as over an axis at rest: its window is known from elsewhere
     meter.window = std::max<std::size_t>(expected_window, 1);
     const std::size_t first = meter.rows.empty() ? power_W.size() : meter.rows.front();

@@ -22,6 +22,18 @@ TEST(MeterHabit, OfThePlantsMeterIsAllTimeOfTheRowsOwnTicks) {
   EXPECT_FALSE(habit.instants);
 }
 
+// A ripple is no law of a drive yet, and what it leaves over hides most of the difference.
+TEST(MeterHabit, IsToldBesideARipple) {
+  auto axis = plant::source_axis();
+  axis.effects.push_back(
+      tests::effect("torque_ripple", {{"relative_amplitude", 0.085}, {"cycles_per_rev", 8.0}, {"phase_rad", 1.0}}));
+  std::vector<Recording> runs;
+  for (const double speed : {0.05, 0.15})
+    runs.push_back(tests::make_recording(
+        axis, {.motion = "sine", .settings = {.amplitude_m = 0.02, .speed_m_per_s = speed}, .duration_s = 8.0}));
+  EXPECT_FALSE(meter_habit(runs, axis).instants);
+}
+
 /// Instants of the drive's power law (Eq. 11), as a meter that is sampled with the controller averages them over 100 ms.
 TEST(MeterHabit, OfInstantsIsTold) {
   auto runs = runs_of_the_plant();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/whitening.h"
+#include "tools/median.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -132,9 +134,7 @@ void ForwardModel::learn_meter_noise(const AxisByRun& axis) {
     }
   }
   if (shares.empty()) return;
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  meter_share_ = 1.4826 * *middle;
+  meter_share_ = 1.4826 * median_of(std::move(shares));
 }
 
 Nrmse ForwardModel::nrmse(const AxisByRun& axis) const {

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/innovations.h"
+#include "tools/median.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -77,9 +79,7 @@ Comparison compared(const Likelihood& one, const Likelihood& other) {
     size[i] = std::abs(difference[i]);
   }
   const double nats = std::accumulate(difference.begin(), difference.end(), 0.0);
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  std::ranges::nth_element(size, middle);
-  const double most = std::max(most_of_a_median * *middle, beyond_a_tick);
+  const double most = std::max(most_of_a_median * median_of(std::move(size)), beyond_a_tick);
   double sum = 0.0, squares = 0.0;
   for (double& d : difference) sum += d = std::clamp(d, -most, most);
   const double mean = sum / static_cast<double>(n);

@@ -1,0 +1,44 @@
+// The residual's colour: noise is, what an effect leaves over is not.
+
+#include "tools/diagnose/whitening.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "tests/support/made_case.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+/// By rms, the noise that is found in white noise of 1 N and forces that turn with the direction of motion.
+/// @param force_N by the share of the run that is over, and by the place
+double noise_found_N(const std::function<double(double, double)>& force_N) {
+  const tools::Case data = tests::short_case(plant::source_axis(), plant::source_axis());
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> white;
+  Vector residual(model.rows());
+  for (const auto& s : model.segments())
+    for (Index i = 0; i < s.size; ++i) {
+      const Track& track = model.tracks()[s.run];
+      const Index k = model.sample_of(s, i);
+      const double direction = track.centred_m_per_s[k] > 0.0 ? 1.0 : -1.0;
+      const double over = static_cast<double>(k) / static_cast<double>(track.size);
+      residual[s.start + i] = white(random) + direction * force_N(over, track.shown_m[k]);
+    }
+  return Whitening::estimate(model, residual).residual_rms(0);
+}
+
+TEST(Whitening, WhatGoesSteadilyWithTimeOrPlaceIsNoNoise) {
+  EXPECT_NEAR(noise_found_N([](double, double) { return 0.0; }), 1.0, 0.1);
+  EXPECT_NEAR(noise_found_N([](double, double) { return 20.0; }), 1.0, 0.1);
+  EXPECT_NEAR(noise_found_N([](double over, double) { return 20.0 * (1.0 - over); }), 1.0, 0.1);
+  EXPECT_NEAR(noise_found_N([](double, double at_m) { return 2000.0 * at_m; }), 1.0, 0.1);
+}
+
+}  // namespace
+}  // namespace feedtwin
