@@ -42,6 +42,7 @@ void print(const diagnosis::HilComparison& hil) {
 
 int run(const Options& options) {
   const Case data = read_case(options.folder);
+  for (const auto& remark : data.remarks) fmt::print(stderr, "feedtwin: {}\n", remark);
   const auto progress = [](std::string_view what) { fmt::print(stderr, "diagnose: {}\n", what); };
   const auto found = diagnosis::diagnose(data, progress);
   std::string axis_file = options.axis;
@@ -50,6 +51,8 @@ int run(const Options& options) {
   if (!axis_file.empty()) write_axis_file(axis_file, found.updated);
   print(found);
   auto json = diagnosis::to_json(found, axis_file);
+  json["controller"] = data.controller ? "of the case" : "stand-in";
+  json["remarks"] = data.remarks;
   if (options.hil) {
     const auto hil = diagnosis::run_hil({data, data.axis, found.updated, options.hil_s}, progress);
     print(hil);

@@ -199,6 +199,13 @@ std::size_t TomlFile::tables_in(std::string_view key) const {
   return array->size();
 }
 
+void TomlFile::leave(std::string_view table) {
+  std::vector<std::string> leaves;
+  if (const auto* node = content_->find(table); node != nullptr && node->is_table())
+    collect(*node, std::string(table), leaves);
+  content_->asked.insert(leaves.begin(), leaves.end());
+}
+
 void TomlFile::reject_unknown() const {
   std::vector<std::string> leaves;
   collect(content_->root, "", leaves);

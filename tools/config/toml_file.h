@@ -42,6 +42,8 @@ class TomlFile {
   /// How many entries an array of tables has, 0 for a plain table; they are then addressed as "fault[0].at_s".
   [[nodiscard]] std::size_t tables_in(std::string_view key) const;
 
+  /// A table that is somebody else's: nobody asks for its keys, and none is an error.
+  void leave(std::string_view table);
   /// Throws InputError for the first key that was never asked for. Call it last.
   void reject_unknown() const;
   /// An error about a key of this file, with its line.

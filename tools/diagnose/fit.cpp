@@ -1,10 +1,10 @@
 #include "tools/diagnose/fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "tools/diagnose/lines.h"
+#include "tools/linear_systems.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -65,7 +65,7 @@ Vector Fitter::step_without_jumps(const Candidate& at, Eigen::MatrixXd informati
       }
       ++unknown;
     }
-  return information.ldlt().solve(slope);
+  return solved(information, slope);
 }
 
 Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
@@ -151,7 +151,7 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
   fit.information.triangularView<Eigen::StrictlyUpper>() = fit.information.transpose();
   Eigen::MatrixXd known = fit.information;
   known.diagonal() += 1e-12 * known.diagonal() + Vector::Constant(unknowns, 1e-12);
-  fit.covariance = known.ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+  fit.covariance = inverse_of(known);
   return fit;
 }
 
@@ -183,8 +183,8 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
       if (jumps_held && !jumps) break;
       Eigen::MatrixXd damped = best.information;
       damped.diagonal() += (damping + 1e-12) * best.information.diagonal() + Vector::Constant(slope.size(), 1e-12);
-      next = moved(best.model, length * (jumps_held ? step_without_jumps(best.model, damped, slope)
-                                                    : Vector(damped.ldlt().solve(slope))));
+      next =
+          moved(best.model, length * (jumps_held ? step_without_jumps(best.model, damped, slope) : solved(damped, slope)));
       cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
       better = cost < best.cost;
       if (better) break;

@@ -1,8 +1,9 @@
 #include "tools/diagnose/judge.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -52,7 +53,7 @@ LeftOut left_out(const InverseModel& model, const Fit& fit, const std::vector<st
     const Vector left = fit.white(rows[f]);
     Eigen::MatrixXd rest = all - own.transpose() * own;
     for (Index i = 0; i < n; ++i) rest(i, i) += 1e-9 * all(i, i) + 1e-12;
-    const Vector step = rest.ldlt().solve(-(own.transpose() * left));
+    const Vector step = solved(rest, -(own.transpose() * left));
     out.costs.push_back((left - own * step).squaredNorm());
     out.steps.col(static_cast<Index>(f)) = step;
   }

@@ -1,11 +1,11 @@
 #include "tools/diagnose/learned.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "plant/effects/registry.h"
 #include "tools/diagnose/remainder.h"
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -90,7 +90,7 @@ Learned learn(const Remainder& rows, const TableKind& kind) {
         right[row[a].first] += row[a].second * rows.force_N[k];
       }
     }
-    const Vector found = normal.ldlt().solve(right);
+    const Vector found = solved(normal, right);
     (forth ? table.force_pos_N : table.force_neg_N).assign(found.data(), found.data() + n);
     if (!kind.damped) continue;
     auto& damping = forth ? table.damping_pos_Ns_per_m : table.damping_neg_Ns_per_m;

@@ -8,6 +8,7 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
+#include "tools/linear_systems.h"
 #include "tools/median.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -59,8 +60,8 @@ Vector line_at(const Rows& rows, double radians_per_row) {
     waves(k, 0) = rows.settled[k] * std::sin(radians_per_row * static_cast<double>(k));
     waves(k, 1) = rows.settled[k] * std::cos(radians_per_row * static_cast<double>(k));
   }
-  const Eigen::Matrix2d normal = waves.transpose() * waves + 1e-9 * Eigen::Matrix2d::Identity();
-  return waves * normal.ldlt().solve(waves.transpose() * rows.values);
+  const Eigen::MatrixXd normal = waves.transpose() * waves + 1e-9 * Eigen::Matrix2d::Identity();
+  return waves * solved(normal, waves.transpose() * rows.values);
 }
 
 }  // namespace

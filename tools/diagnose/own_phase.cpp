@@ -1,8 +1,7 @@
 #include "tools/diagnose/own_phase.h"
 
-#include <Eigen/QR>
-
 #include "tools/diagnose/hypotheses/shapes.h"
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -34,7 +33,7 @@ void take_phases(const InverseModel& unseen, const Whitening& whitening, Candida
     columns.col(static_cast<Index>(j)) = without - left();
     line.q[j] = 0.0;
   }
-  const Vector found = columns.colPivHouseholderQr().solve(without);
+  const Vector found = least_squares(columns, without);
   for (std::size_t j = 0; j < 2 * runs; ++j) line.q[j] = found[static_cast<Index>(j)];
 }
 

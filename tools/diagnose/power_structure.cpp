@@ -1,8 +1,8 @@
 #include "tools/diagnose/power_structure.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "tools/linear_systems.h"
 #include "tools/recording/power_meter.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -57,7 +57,7 @@ Vector PowerStructure::part_of(const Vector& residual) const {
     const Eigen::MatrixXd seen = columns_(others, Eigen::all);
     Eigen::MatrixXd normal = seen.transpose() * seen;
     normal.diagonal().array() += 1e-9;
-    predicted(own) = columns_(own, Eigen::all) * normal.ldlt().solve(seen.transpose() * y(others));
+    predicted(own) = columns_(own, Eigen::all) * solved(normal, seen.transpose() * y(others));
   }
   if ((y - predicted).squaredNorm() < y.squaredNorm()) part(rows_) = predicted;
   return part;

@@ -1,9 +1,9 @@
 #include "tools/diagnose/remainder.h"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "tools/diagnose/taken_up.h"
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -61,7 +61,7 @@ Remainder remainder_of(const InverseModel& model, const Candidate& at) {
 void take_off_numbers(Remainder& rows, Remainder* others) {
   const auto of = [](const Remainder& r) { return columns_of_numbers(r.acceleration_m_per_s2, r.velocity_m_per_s); };
   const Eigen::MatrixXd own = of(rows);
-  const Vector numbers = own.colPivHouseholderQr().solve(force(rows));
+  const Vector numbers = least_squares(own, force(rows));
   force(rows) -= own * numbers;
   if (others != nullptr) force(*others) -= of(*others) * numbers;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +10,7 @@
 #include <numbers>
 #include <random>
 
+#include "tools/linear_systems.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -140,9 +140,7 @@ namespace {
 Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, const Fitter& fitter, const Fit& fit,
               const Whitening& whitening) {
   const InverseModel& model = fitter.model();
-  const Index rows = fit.white.size();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.jacobian);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
+  const Eigen::MatrixXd q = orthonormal(fit.jacobian);
   const Vector left = fit.white - q * (q.transpose() * fit.white);
   const auto blocks = blocks_of(model);
   const Eigen::MatrixXd signs = random_signs(blocks.size());

@@ -1,13 +1,12 @@
 #include "tools/diagnose/structure.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
 #include "tools/diagnose/taken_up.h"
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -214,7 +213,7 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
   Vector y = Vector::Zero(rows_.cols());
   for (std::size_t e = 0; e < model_.equations().size(); ++e)
     if (of_force(model_.equations()[e])) y += gathered(residual, e);
-  y -= numbers_ * numbers_.colPivHouseholderQr().solve(y);
+  y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm(), after = (y - unseen(y)).squaredNorm();
   found.remainder_N = std::sqrt(before / static_cast<double>(y.size()));
   found.share = before > 0.0 ? 1.0 - after / before : 0.0;

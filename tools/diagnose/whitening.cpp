@@ -1,10 +1,10 @@
 #include "tools/diagnose/whitening.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "tools/linear_systems.h"
 #include "tools/median.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -45,7 +45,7 @@ Vector less_steady(const InverseModel& model, const Vector& residual) {
       const Eigen::Matrix3Xd::ConstMapType by_column(steady.front().data(), 3, static_cast<Index>(steady.size()));
       const Eigen::MatrixX3d regressors = by_column.transpose();
       const Vector there = residual(rows);
-      out(rows) -= regressors * regressors.completeOrthogonalDecomposition().solve(there);
+      out(rows) -= regressors * least_squares(regressors, there);
     }
   }
   return out;
@@ -83,7 +83,7 @@ Whitening Whitening::estimate(const InverseModel& model, const Vector& given) {
     Eigen::MatrixXd toeplitz(p, p);
     for (Index i = 0; i < p; ++i)
       for (Index j = 0; j < p; ++j) toeplitz(i, j) = correlation[std::abs(i - j)];
-    const Vector a = p > 0 ? Vector(toeplitz.ldlt().solve(correlation.tail(p))) : Vector();
+    const Vector a = p > 0 ? solved(toeplitz, correlation.tail(p)) : Vector();
     const double innovation = correlation[0] - a.dot(correlation.tail(p));
     made.coefficients_.push_back(a);
     made.sigma_.push_back(std::sqrt(std::max(innovation, 1e-6 * correlation[0])));

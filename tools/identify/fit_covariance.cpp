@@ -1,9 +1,10 @@
 #include "tools/identify/fit_covariance.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::size_t block_samples = 200;
 
 MatrixXd inverse_information(const LeastSquaresSolution& at) {
   const MatrixXd information = at.jacobian.transpose() * at.jacobian;
-  return information.ldlt().solve(MatrixXd::Identity(information.rows(), information.cols()));
+  return inverse_of(information);
 }
 
 MatrixXd covariance_of(const LeastSquaresSolution& at, const ResidualStack& stack, const MatrixXd& inverse,

@@ -1,13 +1,12 @@
 #include "tools/identify/inverse_model.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "plant/axis_model.h"
 #include "tools/identify/zero_phase_filter.h"
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -62,11 +61,10 @@ RigidFit fit_rigid_model(const RecordedMotion& motion, bool directional) {
     regressors.col(c) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
   }
   const Eigen::Map<const Eigen::VectorXd> measured(force.data(), rows);
-  const Eigen::VectorXd solution = regressors.colPivHouseholderQr().solve(measured);
+  const Eigen::VectorXd solution = least_squares(regressors, measured);
   const Eigen::VectorXd model = regressors * solution;
   const double variance = (measured - model).squaredNorm() / static_cast<double>(rows);
-  const Eigen::MatrixXd inverse =
-      (regressors.transpose() * regressors).ldlt().solve(Eigen::MatrixXd::Identity(width, width));
+  const Eigen::MatrixXd inverse = inverse_of(regressors.transpose() * regressors);
   const Eigen::VectorXd deviation = (variance * inverse.diagonal()).cwiseMax(0.0).cwiseSqrt();
   RigidFit fit;
   const Eigen::Index second = directional ? 2 : 1;

@@ -1,11 +1,12 @@
 #include "tools/identify/least_squares.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -55,7 +56,7 @@ VectorXd damped_point(const LeastSquaresProblem& problem, const LeastSquaresSolu
       a(i, i) = 1.0;
       b[i] = bounded[i];
     }
-    const VectorXd wanted = at.point + a.ldlt().solve(b);
+    const VectorXd wanted = at.point + solved(a, b);
     point = wanted.cwiseMax(problem.lowest).cwiseMin(problem.highest);
     bool again = false;
     for (Index i = 0; i < n; ++i) {

@@ -36,9 +36,37 @@ ChannelMap channel_map(TomlFile& file) {
   return map;
 }
 
-std::optional<controllers::CascadeGains> controller(TomlFile& file, const plant::AxisParameters& axis) {
+/// What of [controller] is not of a cascade as feedtwin runs it at the recordings' rate; empty: nothing.
+std::string foreign_to_cascade(TomlFile& file, double sample_rate_Hz) {
+  constexpr std::array own{"type",
+                           "sample_rate_Hz",
+                           "position_per_s",
+                           "velocity_Ns_per_m",
+                           "velocity_integral_N_per_m",
+                           "velocity_feedforward",
+                           "acceleration_feedforward_kg",
+                           "current_loop_time_constant_s",
+                           "velocity_window_samples",
+                           "torque_limit_Nm"};
+  if (const auto type = file.text("controller.type", "cascade"); type != "cascade")
+    return fmt::format("the type '{}'", type);
+  if (file.number("controller.sample_rate_Hz", 1.0, 1e6, sample_rate_Hz) != sample_rate_Hz) return "another sample rate";
+  for (const auto& name : file.names_in("controller"))
+    if (std::ranges::find(own, name) == own.end()) return fmt::format("the key '{}'", name);
+  return "";
+}
+
+/// None where the case names none, or one whose law is not known here: a stand-in takes its place.
+std::optional<controllers::CascadeGains> controller(TomlFile& file, Case& into) {
   if (file.names_in("controller").empty()) return std::nullopt;
-  file.word("controller.type", {"cascade"}, "cascade");
+  if (const auto foreign = foreign_to_cascade(file, into.sample_rate_Hz); !foreign.empty()) {
+    file.leave("controller");
+    into.remarks.push_back(
+        fmt::format("{}: [controller] has {}, which is none of feedtwin's cascade: in closed loop a stand-in "
+                    "that tracks the recorded motion takes its place",
+                    file.path(), foreign));
+    return std::nullopt;
+  }
   controllers::CascadeGains gains;
   gains.position_per_s = file.required_number("controller.position_per_s", 0.0, 1e6);
   gains.velocity_Ns_per_m = file.required_number("controller.velocity_Ns_per_m", 0.0, 1e9);
@@ -47,8 +75,8 @@ std::optional<controllers::CascadeGains> controller(TomlFile& file, const plant:
   gains.acceleration_feedforward_kg = file.number("controller.acceleration_feedforward_kg", 0.0, 1e6, 0.0);
   gains.current_loop_time_constant_s = file.number("controller.current_loop_time_constant_s", 0.0, 1.0, 0.0);
   gains.velocity_window_samples = static_cast<int>(file.integer("controller.velocity_window_samples", 1, 4, 1));
-  gains.torque_limit_Nm = file.number("controller.torque_limit_Nm", 1e-6, 1e6, axis.axis.torque_limit_Nm);
-  gains.lead_m = axis.axis.lead_m;
+  gains.torque_limit_Nm = file.number("controller.torque_limit_Nm", 1e-6, 1e6, into.axis.axis.torque_limit_Nm);
+  gains.lead_m = into.axis.axis.lead_m;
   return gains;
 }
 
@@ -95,7 +123,7 @@ Case read_case(const std::string& path) {
   result.axis = read_axis_file((fs::path(result.folder) / *axis).string());
   result.sample_rate_Hz = file.required_number("sample_rate_Hz", 1.0, 1e6);
   const ChannelMap map = channel_map(file);
-  result.controller = controller(file, result.axis);
+  result.controller = controller(file, result);
   const bool named = file.has("fit");
   const auto fit = file.texts("fit"), holdout = file.texts("holdout");
   file.reject_unknown();

@@ -1,12 +1,13 @@
 #include "tools/recording/power_meter.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "tools/linear_systems.h"
 #include "tools/median.h"
 
 namespace feedtwin::tools {
@@ -25,6 +26,9 @@ Laws laws_of(double torque_Nm, double torque_before_Nm, double v, double rad_per
   return all;
 }
 
+/// A meter's error is partly of its reading, and then the large ones hide what the small ones tell; or it is not.
+enum class Errors { of_readings, alike };
+
 /// Readings of every row, taken together.
 MeteredPower in_blocks(std::size_t rows) {
   MeteredPower meter{.rows = {}, .window = 25, .delay = 0};
@@ -36,9 +40,16 @@ double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Sum of squares of what the first `asked` laws leave over of the readings, however large each is; too few readings:
-/// nothing.
-double unexplained(std::span<const Recording> recordings, MeterHabit habit, int asked, const plant::AxisParameters& axis) {
+double rms_of(std::span<const double> values) {
+  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, values.size())));
+}
+
+/// Sum of squares of what the first `asked` laws leave over of the readings, each by its own error, however large each law
+/// is; too few readings: nothing.
+double unexplained(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
+                   const plant::AxisParameters& axis) {
+  constexpr double least_reading = 0.2;  // of the rms
   const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
   Eigen::Matrix<double, laws, laws> normal = Eigen::Matrix<double, laws, laws>::Zero();
   Eigen::Matrix<double, laws, 1> right = Eigen::Matrix<double, laws, 1>::Zero();
@@ -51,6 +62,7 @@ double unexplained(std::span<const Recording> recordings, MeterHabit habit, int 
     MeteredPower meter = metered_rows(recording, axis);
     const bool held = meter.window > 1;
     if (!held) meter = in_blocks(power_W.size());
+    const double rms_W = rms_of(power_W);
     meter.delay = held ? habit.delay : 0;
     const auto velocity = [&](std::size_t k) {
       const std::size_t from = habit.instants ? k - 1 : k;
@@ -62,11 +74,12 @@ double unexplained(std::span<const Recording> recordings, MeterHabit habit, int 
       for (std::size_t k = meter.first_tick(row); k < meter.first_tick(row) + meter.window; ++k)
         sum += laws_of(command[k], command[k - 1], velocity(k), rad_per_m);
       sum.tail(laws - asked).setZero();
-      const auto mean = sum.matrix() / static_cast<double>(meter.window);
-      normal += mean * mean.transpose();
       const double reading_W = held ? power_W[row] : mean_of(power_W.subspan(row + 1 - meter.window, meter.window));
-      right += mean * reading_W;
-      squares += reading_W * reading_W;
+      const double error_W = errors == Errors::alike ? 1.0 : std::hypot(reading_W, least_reading * rms_W) + 1e-300;
+      const auto mean = sum.matrix() / (error_W * static_cast<double>(meter.window));
+      normal += mean * mean.transpose();
+      right += mean * (reading_W / error_W);
+      squares += reading_W * reading_W / (error_W * error_W);
       ++readings;
     }
   }
@@ -74,8 +87,7 @@ double unexplained(std::span<const Recording> recordings, MeterHabit habit, int 
   const Eigen::Matrix<double, laws, 1> size = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Eigen::Matrix<double, laws, laws> scaled =
       size.cwiseInverse().asDiagonal() * normal * size.cwiseInverse().asDiagonal();
-  const Eigen::Matrix<double, laws, 1> found =
-      scaled.completeOrthogonalDecomposition().solve(right.cwiseQuotient(size)).cwiseQuotient(size);
+  const Eigen::Matrix<double, laws, 1> found = least_squares(scaled, right.cwiseQuotient(size)).cwiseQuotient(size);
   return std::max(0.0, squares - 2.0 * found.dot(right) + found.dot(normal * found));
 }
 
@@ -126,10 +138,13 @@ MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisP
   // yet hides the difference, means over time had 0.87
   constexpr double likely = 0.9;
   constexpr MeterHabit instants{}, all_time{.delay = 0, .instants = false}, late{.delay = 1, .instants = false};
-  for (const int asked : {own_laws, own_laws + 1})
-    if (unexplained(recordings, late, asked, axis) < clearly * unexplained(recordings, all_time, asked, axis)) return late;
-  const double over_time = unexplained(recordings, all_time, laws, axis);
-  return over_time < likely * unexplained(recordings, instants, laws, axis) ? all_time : instants;
+  for (const Errors errors : {Errors::of_readings, Errors::alike})
+    for (const int asked : {own_laws, own_laws + 1})
+      if (unexplained(recordings, late, asked, errors, axis) <
+          clearly * unexplained(recordings, all_time, asked, errors, axis))
+        return late;
+  const double over_time = unexplained(recordings, all_time, laws, Errors::alike, axis);
+  return over_time < likely * unexplained(recordings, instants, laws, Errors::alike, axis) ? all_time : instants;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

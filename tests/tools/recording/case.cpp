@@ -51,6 +51,30 @@ TEST_F(CaseFolder, ReadsWhatWasWritten) {
   EXPECT_EQ(read.remarks, std::vector<std::string>{});
 }
 
+TEST_F(CaseFolder, TakesItsOwnControllerAndLeavesAnotherToTheStandIn) {
+  const auto with = [this](const std::string& controller) {
+    write_whole_file(folder / "case.toml", std::string(plain) + "[controller]\n" + controller);
+    EXPECT_EQ(after([](Recording& r) { r.channels["reference_m"] = r.channels.at("position_m"); }), "") << controller;
+    return read_case(folder.path());
+  };
+  const Case own = with("type = \"cascade\"\nsample_rate_Hz = 1000\nposition_per_s = 50\nvelocity_Ns_per_m = 9000\n");
+  ASSERT_TRUE(own.controller.has_value());
+  EXPECT_EQ(own.controller->position_per_s, 50.0);
+  EXPECT_TRUE(own.remarks.empty());
+  for (const auto& [foreign, named] :
+       {std::pair{"type = \"state space\"\n[controller.a]\nrows = [1, 2]\n", "type 'state space'"},
+        {"position_per_s = 50\nvelocity_Ns_per_m = 9000\nkv = 3\n", "key 'kv'"},
+        {"position_per_s = 50\nvelocity_Ns_per_m = 9000\nsample_rate_Hz = 4000\n", "rate"}}) {
+    const Case other = with(foreign);
+    EXPECT_FALSE(other.controller.has_value()) << foreign;
+    ASSERT_EQ(other.remarks.size(), 1U) << foreign;
+    EXPECT_NE(other.remarks[0].find(named), std::string::npos) << other.remarks[0];
+  }
+  write_whole_file(folder / "case.toml", std::string(plain) + "[controller]\nposition_per_s = \"fast\"\n");
+  EXPECT_NE(complaint_of([this] { static_cast<void>(read_case(folder.path())); }).find("controller.position_per_s"),
+            std::string::npos);
+}
+
 TEST_F(CaseFolder, MapsForeignNamesAndUnits) {
   Recording foreign;
   foreign.channels = {};

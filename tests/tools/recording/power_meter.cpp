@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/support/made_case.h"
 
 namespace feedtwin::tools {
@@ -82,6 +84,28 @@ TEST(MeterHabit, IsToldOfADriveThatBurnsWhatComesBack) {
       read_a_row_later(runs);
       EXPECT_EQ(meter_habit(runs, axis).delay, 1U) << amplitude_m << ", " << speed_m_per_s;
     }
+}
+
+// Where a meter errs by a share of what it reads, its largest readings say the least about when they were taken.
+TEST(MeterHabit, IsToldOfAMeterThatErrsByItsReading) {
+  std::vector<Recording> runs;
+  for (const double speed : {0.02, 0.25})
+    runs.push_back(tests::make_recording(
+        plant::source_axis(),
+        {.motion = "sine", .settings = {.amplitude_m = 0.03, .speed_m_per_s = speed}, .duration_s = 8.0}));
+  std::mt19937 random(7);
+  std::normal_distribution<double> share(0.0, 0.0012);
+  for (auto& run : runs) {
+    auto& power_W = run.channels.at(std::string(channel::power_W));
+    double shown = 0.0, off = 0.0;
+    for (double& reading : power_W) {
+      if (reading != shown) shown = reading, off = share(random);
+      reading *= 1.0 + off;
+    }
+  }
+  EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 0U);
+  read_a_row_later(runs);
+  EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 1U);
 }
 
 TEST(MeterHabit, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {

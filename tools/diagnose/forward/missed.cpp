@@ -19,11 +19,15 @@ double least_nats(const Found& named) {
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, h.least_missed_nats);
 }
 
+/// Times what it takes: a name that is missed so is not asked again when another has gone or the numbers are better.
+constexpr double surely_missed = 10.0;
+
 /// A name that does not stay, and the runs without it.
 struct Lacking {
   const Hypothesis* hypothesis;
   Ruling rest;
   double short_of_nats;  ///< what it would take to stay
+  bool shrunk;           ///< it has no size beside the others: however much likelier the runs become, it tells nothing
 };
 
 /// Asks every name, and notes the answers.
@@ -38,6 +42,7 @@ class Asked {
       const auto* hypothesis = fit.model.effects[e].hypothesis;
       auto* named = found.of(hypothesis);
       if (named == nullptr || !worth_naming(fit.model.effects[e])) continue;
+      if (named->missed_nats > surely_missed * std::max(100.0, least_nats(*named))) continue;
       Ruling rest = without_it(found, fit, settled, e);
       if (settled.value - rest.value < std::max(doubtful_nats, least_nats(*named))) asked_fairly(settled, rest, e);
       named->missed_nats = settled.value - rest.value;
@@ -45,7 +50,7 @@ class Asked {
       const bool shrunk = !possible(settled.model.effects[e], settled.model.axis);
       const double short_of_nats = shrunk ? 1e300 : least_nats(*named) - named->missed_nats;
       if (short_of_nats > 0.0 && (!least || short_of_nats > least->short_of_nats))
-        least = Lacking{hypothesis, std::move(rest), short_of_nats};
+        least = Lacking{hypothesis, std::move(rest), short_of_nats, shrunk};
     }
     return least;
   }
@@ -87,7 +92,8 @@ void keep_missed(const ForwardModel& forward, const Fitter& fitter, SearchResult
     const double value = settled.value;
     auto least = asked.least_missed(found, fit, settled);
     if (!least) return;
-    if (settled.value > value + of_consequence_nats && repeats++ < most_repeats) continue;  // they were asked beside less
+    const bool beside_less = settled.value > value + of_consequence_nats;  // asked before the others did better
+    if (beside_less && !least->shrunk && repeats++ < most_repeats) continue;
     progress(fmt::format("closed loop: {} is not missed", least->hypothesis->id));
     std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == least->hypothesis; });
     settled = std::move(least->rest);

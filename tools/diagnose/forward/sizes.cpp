@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/forward/unknowns.h"
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -40,7 +40,7 @@ double deviations_from_nothing(const Active& effect, const Eigen::MatrixXd& cova
   if (size.empty()) return 0.0;
   const Eigen::Map<const Vector> value(size.data(), static_cast<Index>(size.size()));
   const Eigen::MatrixXd spread = covariance(amplitudes, amplitudes);
-  return std::sqrt(std::max(0.0, value.dot(spread.ldlt().solve(value))) / static_cast<double>(size.size()));
+  return std::sqrt(std::max(0.0, value.dot(solved(spread, value))) / static_cast<double>(size.size()));
 }
 
 /// Of a channel's error, as a share of it.

@@ -1,6 +1,5 @@
 #include "tools/diagnose/planning/separation.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 #include "plant/feed_axis.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/identify/channel_residuals.h"
+#include "tools/linear_systems.h"
 #include "tools/loopback/tracking_gains.h"
 #include "tools/parallel.h"
 
@@ -169,9 +169,9 @@ double Separation::distance(const Move& move, const Candidate& truth, const Cont
     for (Index j = 0; j < n; ++j)
       correlation(i, j) = other.covariance(i, j) / std::max(1e-300, deviation(i) * deviation(j)) + (i == j ? 1e-9 : 0.0);
   // (1 + J C J^T)^-1 by Woodbury, so that only as many rows are solved for as there are numbers
-  const Eigen::MatrixXd known = (doubt * doubt * correlation).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd known = inverse_of(doubt * doubt * correlation);
   const Vector along = bends.transpose() * apart;
-  const double taken = along.dot((known + bends.transpose() * bends).ldlt().solve(along));
+  const double taken = along.dot(solved(known + bends.transpose() * bends, along));
   return std::sqrt(std::max(0.0, square - taken));
 }
 

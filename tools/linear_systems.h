@@ -1,0 +1,18 @@
+#pragma once
+// Dense linear systems of a size known at run time, compiled once: Eigen's decompositions are what a file that has them
+// takes longest to compile.
+
+#include <Eigen/Core>
+
+namespace feedtwin::tools {
+
+/// x of A x = b. @param symmetric A, not negative (LDL^T with pivoting; a direction without curvature gets no part)
+[[nodiscard]] Eigen::VectorXd solved(const Eigen::MatrixXd& symmetric, const Eigen::VectorXd& right);
+/// A^-1, likewise
+[[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& symmetric);
+/// The x that brings A x closest to b; columns that others make up get no part.
+[[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
+/// Orthonormal columns that span what the given ones do, as many of them.
+[[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
+}  // namespace feedtwin::tools
