@@ -120,6 +120,8 @@ struct Hypothesis {
   /// Of what the numbers take up nearly all of in the inverse model: told where in closed loop, all numbers free, the runs
   /// are so many nats likelier, however little closer a channel comes.
   std::optional<double> told_by_runs_nats = std::nullopt;
+  /// Up to this amplitude; more than the numbers can take up must bring its channel closer.
+  double most_told_by_runs = 1e300;
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 

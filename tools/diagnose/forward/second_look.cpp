@@ -41,6 +41,13 @@ Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, bool 
   return best;
 }
 
+double largest_amplitude(const Active& effect) {
+  double largest = 0.0;
+  for (std::size_t j = 0; j < effect.q.size(); ++j)
+    if (effect.hypothesis->parameters[j].kind == Kind::amplitude) largest = std::max(largest, std::abs(effect.q[j]));
+  return largest;
+}
+
 /// Of as many deviations in any of the hypotheses: what the closed loop names, it vouches for.
 double chance_of(double deviations) {
   return std::min(1.0, 0.5 * std::erfc(deviations / std::numbers::sqrt2) * static_cast<double>(hypotheses().size()));
@@ -203,10 +210,11 @@ class SecondLook {
                           100.0 * seen.share));
     const bool closer_by_far =
         seen.ratio >= least_ratio && seen.share >= least_share && nats >= least_nats && deviations >= least_deviations;
-    const bool surely_read =
-        h.only_readings && seen.ratio >= least_ratio_of_readings && nats >= sure_nats && deviations >= sure_deviations;
+    const bool slight = largest_amplitude(one.model.effects.back()) <= h.most_told_by_runs;
+    const bool surely_read = h.only_readings && slight && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
+                             deviations >= sure_deviations;
     const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && deviations >= loud_deviations;
-    const bool told = h.told_by_runs_nats && nats >= *h.told_by_runs_nats &&
+    const bool told = h.told_by_runs_nats && slight && nats >= *h.told_by_runs_nats &&
                       deviations >= (h.only_readings ? least_deviations_of_readings : least_deviations);
     answer.by_runs_alone = told && !(closer_by_far || loud || surely_read);
     answer.enough = told || closer_by_far || loud || surely_read;

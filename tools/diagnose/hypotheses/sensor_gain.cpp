@@ -63,6 +63,7 @@ Hypothesis sensor_gain() {
           .starts = {{0.0, 0.0, torque}, {0.0, 0.0, force}},
           .closed_loop_starts = {{0.0, 0.0, torque}, {0.0, 0.0, force}},
           .told_by_runs_nats = 500.0,
+          .most_told_by_runs = 0.1,  // what only fitted otherwise shaped friction better was 16 to 21 %
           .friction = false};
 }
 
