@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/diagnose/by_direction.h"
 #include "tools/diagnose/command_jump.h"
 #include "tools/diagnose/forward/arbiter.h"
 #include "tools/diagnose/forward/closest.h"
@@ -144,6 +145,8 @@ class Diagnosing {
         result_.effects.push_back(named_effect(one, fit_, covariance_, model_));
     }
     tell_as_one_lead(result_);
+    if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
+      result_.effects.push_back(std::move(*difference));
     result_.recalibrated = recalibrated(fitter_, fit_, covariance_);
     auto ways = ways_of(fit_.model);
     if (result_.effects.empty()) ways.push_back(extended(found_.recalibrated.model)), ways.push_back(data_.axis);

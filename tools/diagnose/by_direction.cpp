@@ -1,0 +1,101 @@
+#include "tools/diagnose/by_direction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/diagnose/sentence.h"
+#include "tools/intervals.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double least_deviations = 6.0, least_share = 0.03;
+constexpr double for_the_laws = 2.0;  // as of any effect's interval (reported.cpp)
+
+/// A friction's sum over the components, forth less back, and how it goes with the base parameters.
+struct Difference {
+  double forth = 0.0, back = 0.0;
+  Vector slope;
+
+  [[nodiscard]] double value() const { return forth - back; }
+  [[nodiscard]] double deviation(const Eigen::MatrixXd& covariance) const {
+    return std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
+  }
+  [[nodiscard]] bool shows(const Eigen::MatrixXd& covariance) const {
+    return std::abs(value()) > least_share * 0.5 * (forth + back) &&
+           std::abs(value()) > least_deviations * deviation(covariance);
+  }
+};
+
+/// @param kind "coulomb" or what viscous friction is called: "viscous" of the contacts, "damping" of the motor
+bool is_of(std::string_view key, std::string_view kind) {
+  return key.find("." + std::string(kind) + "_") != std::string_view::npos;
+}
+
+Difference difference(const Fitter& fitter, const Fit& fit, Index unknowns, bool coulomb) {
+  Difference sum{.slope = Vector::Zero(unknowns)};
+  const double rad_per_m = 2.0 * std::numbers::pi / fit.model.axis.axis.lead_m;
+  for (std::size_t i = 0; i < fitter.base().size(); ++i) {
+    const auto& parameter = fitter.base()[i];
+    const auto key = parameter.entry->key;
+    const bool motor = is_of(key, "damping");
+    if (coulomb ? !is_of(key, "coulomb") : !is_of(key, "viscous") && !motor) continue;
+    const double to_table = motor ? rad_per_m * rad_per_m : 1.0;
+    const bool forth = key.find("_pos_") != std::string_view::npos;
+    (forth ? sum.forth : sum.back) += to_table * value_of(parameter, fit.model.axis);
+    sum.slope[static_cast<Index>(i)] = (forth ? 1.0 : -1.0) * to_table * fitter.tolerance(i);
+  }
+  return sum;
+}
+
+/// Does the axis file know one friction for both directions?
+bool same_both_ways(const Fitter& fitter) {
+  double last = 0.0;  // each number for forth is followed by that for back
+  for (const auto& parameter : fitter.base()) {
+    const auto key = parameter.entry->key;
+    if (!is_of(key, "coulomb") && !is_of(key, "viscous") && !is_of(key, "damping")) continue;
+    const double value = value_of(parameter, fitter.nominal());
+    if (key.find("_pos_") != std::string_view::npos) {
+      last = value;
+    } else if (value != last) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Estimate estimate(const Difference& difference, const Eigen::MatrixXd& covariance) {
+  const double half = for_the_laws * normal_90 * difference.deviation(covariance);
+  return {difference.value(), difference.value() - half, difference.value() + half};
+}
+
+}  // namespace
+
+std::optional<NamedEffect> difference_by_direction(const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
+  const Hypothesis& own = hypothesis("direction_dependent_friction");
+  if (!same_both_ways(fitter) || has(fit.model, own)) return std::nullopt;
+  const Difference coulomb = difference(fitter, fit, covariance.rows(), true);
+  const Difference viscous = difference(fitter, fit, covariance.rows(), false);
+  if (!coulomb.shows(covariance) && !viscous.shows(covariance)) return std::nullopt;
+  NamedEffect effect;
+  effect.hypothesis = &own;
+  effect.parameters = {{"coulomb_difference_N", estimate(coulomb, covariance)},
+                       {"viscous_difference_Ns_per_m", estimate(viscous, covariance)}};
+  // what the cost would rise by, were the differences none (Wald)
+  const double gain = std::max(std::pow(coulomb.value() / coulomb.deviation(covariance), 2),
+                               std::pow(viscous.value() / viscous.deviation(covariance), 2));
+  effect.share = gain / (gain + fit.cost);
+  effect.p_false_alarm = std::min(1.0, std::exp(-0.5 * gain) * static_cast<double>(hypotheses().size()));
+  double fastest = 0.0;
+  for (const auto& track : fitter.model().tracks()) fastest = std::max(fastest, track.centred_m_per_s.cwiseAbs().maxCoeff());
+  effect.intervals = {{-fastest, fastest}};
+  const Track& track = fitter.model().tracks().front();
+  if (!viscous.shows(covariance) && track.torque_sensor_N.size() == 0 && track.force_sensor_N.size() == 0)
+    effect.alternatives = {"torque_offset", "gravity"};  // in motion a constant force is the same
+  effect.sentence =
+      sentence_of(effect) + " The axis file has one number for both; the recalibrated ones hold the difference.";
+  return effect;
+}
+
+}  // namespace feedtwin::tools::diagnosis
