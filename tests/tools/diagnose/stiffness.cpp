@@ -80,5 +80,29 @@ TEST(AskHowStiff, ALateSensorOnARigidScrewStaysLate) {
   EXPECT_NEAR(asked.fit.model.effects[0].q[1], 1.4e-3, 1e-4);
 }
 
+// Polished effects beside numbers that were not are no model: one that lets the screw slide too early lost a copper loss.
+TEST(AskHowStiff, WhatTheFitHoldsBesideTheStiffnessStaysAsItWasFitted) {
+  auto truth = plant::source_axis(), nominal = truth;
+  truth.effects = {tests::effect("screw_compliance", {{"stiffness_N_per_m", 1.7e8}}),
+                   tests::effect("torque_offset", {{"offset_Nm", 0.01}})};
+  nominal.ball_screw.coulomb_N.pos *= 1.05;
+  tools::Case data = tests::short_case(truth, nominal);
+  tests::MadeRun run{.motion = "s_curve", .duration_s = 3.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+  run.settings = {.amplitude_m = 0.02, .speed_m_per_s = 0.1, .acceleration_m_per_s2 = 8.0, .jerk_m_per_s3 = 2000.0};
+  data.fit = {tests::make_recording(truth, run)};
+  data.fit[0].channels.erase("scale_position_m");
+  const InverseModel model(make_tracks(data.fit, nominal), nominal);
+  const Fitter fitter(model, nominal);
+  SearchResult found;
+  found.whitening = fitter.colour_of(model.residual(nominal, {}));
+  Fit fit = fitter.fit_with_colour({nominal, {{&hypothesis("torque_offset"), {0.0}}}}, found.whitening, 2, 6);
+  const Candidate before = fit.model;
+  const ForwardModel forward(data.fit, data);
+  ASSERT_TRUE(ask_how_stiff(forward, fitter, found, fit, [](std::string_view) {}).has_value());
+  ASSERT_EQ(fit.model.effects.size(), 2U) << "a screw that yields";
+  EXPECT_EQ(fit.model.effects[0].q, before.effects[0].q);
+  EXPECT_EQ(fit.model.axis.ball_screw.coulomb_N.pos, before.axis.ball_screw.coulomb_N.pos);
+}
+
 }  // namespace
 }  // namespace feedtwin

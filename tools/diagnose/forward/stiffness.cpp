@@ -78,7 +78,12 @@ std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& f
     progress("the screw yields: the force sensor is not late");
     std::erase_if(found.found, [](const Found& one) { return one.effect.hypothesis == &hypothesis("channel_skew"); });
   }
-  yielding.fit.model.effects = yielding.model.effects;
+  // what no number makes up for is as polished; the others stay beside the numbers that they were fitted with
+  for (std::size_t e = 0; e < yielding.fit.model.effects.size(); ++e) {
+    Active& effect = yielding.fit.model.effects[e];
+    if (effect.hypothesis == &hypothesis("screw_compliance") || effect.hypothesis == &hypothesis("channel_skew"))
+      effect = yielding.model.effects[e];
+  }
   fit = yielding.fit;
   return yielding;
 }
