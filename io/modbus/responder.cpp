@@ -1,7 +1,5 @@
 #include "io/modbus/responder.h"
 
-#include <modbus.h>
-
 namespace feedtwin::io::modbus {
 
 Responder::Responder(modbus_t* context, Exchange& exchange, std::int64_t command_idle_ns)

@@ -1,6 +1,8 @@
 #pragma once
 // Answers one request after another: who may write, what is stored, and libmodbus for the reply itself.
 
+#include <modbus.h>
+
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -9,8 +11,6 @@
 #include "io/modbus/register_bank.h"
 #include "io/modbus/request.h"
 #include "io/tally.h"
-
-typedef struct _modbus modbus_t;  // NOLINT(bugprone-reserved-identifier): libmodbus' own name
 
 namespace feedtwin::io::modbus {
 
