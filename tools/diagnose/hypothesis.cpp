@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "tools/diagnose/hypotheses/registry.h"
@@ -26,6 +27,14 @@ bool possible(const Active& active, const plant::AxisParameters& axis) {
 
 bool worth_naming(const Active& active) {
   return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
+}
+
+bool runs_may_tell(const Active& active) {
+  for (std::size_t j = 0; j < active.q.size(); ++j)
+    if (active.hypothesis->parameters[j].kind == Kind::amplitude &&
+        std::abs(active.q[j]) > active.hypothesis->most_told_by_runs)
+      return false;
+  return true;
 }
 
 std::string in_words(const Active& active, const plant::AxisParameters& axis) {

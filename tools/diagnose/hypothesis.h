@@ -143,6 +143,8 @@ struct Active {
 [[nodiscard]] std::string in_words(const Active& active, const plant::AxisParameters& axis);
 /// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
 [[nodiscard]] bool worth_naming(const Active& active);
+/// Is it so small that the runs alone may tell it, though no channel comes closer?
+[[nodiscard]] bool runs_may_tell(const Active& active);
 /// Is it an unknown of the inverse model, and of the intervals?
 [[nodiscard]] constexpr bool fitted(Kind kind) {
   return kind == Kind::amplitude || kind == Kind::shape;

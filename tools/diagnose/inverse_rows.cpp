@@ -7,6 +7,7 @@
 
 #include "plant/axis_model.h"
 #include "tools/diagnose/inverse_model.h"
+#include "tools/identify/sliding.h"
 #include "tools/identify/whitening.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -35,23 +36,14 @@ const std::array<double, taps>& low_pass() {
 }  // namespace
 
 void InverseModel::find_settled() {
-  constexpr double presliding_m = 5e-5, smeared_s = 0.03, filter_s = 0.01;
+  constexpr double filter_s = 0.01;
   settled_.assign(static_cast<std::size_t>(rows_), true);
   for (const auto& segment : segments_) {
     const auto& equation = equations_[segment.equation];
     if (equation.slip || equation.power) continue;
     const Track& track = tracks_[segment.run];
-    std::vector<bool> slides(static_cast<std::size_t>(track.size));
-    double travelled_m = 1.0, elapsed_s = 1.0, direction = 0.0;
-    for (Index k = 0; k < track.size; ++k) {
-      const double v = track.centred_m_per_s[k];
-      const double now = std::abs(v) < standstill_m_per_s ? 0.0 : (v > 0.0 ? 1.0 : -1.0);
-      if (now == 0.0 || now != direction) travelled_m = elapsed_s = 0.0;
-      direction = now;
-      travelled_m += std::abs(v) * track.sample_s;
-      elapsed_s += track.sample_s;
-      slides[static_cast<std::size_t>(k)] = travelled_m > presliding_m && elapsed_s > smeared_s;
-    }
+    const auto& velocity = track.centred_m_per_s;
+    const auto slides = rows_of_sliding({velocity.data(), static_cast<std::size_t>(track.size)}, track.sample_s);
     const Index ahead = std::lround(filter_s / track.sample_s);
     for (Index i = 0; i < segment.size; ++i) {
       const Index k = sample_of(segment, i);

@@ -40,6 +40,7 @@ struct Found {
   bool held_everywhere = false;           ///< on every unseen fold, with nearly all of its gain
   bool far_off = false;                   ///< the numbers could do it, far from nominal: no channel bears it out
   bool by_closed_loop = false;            ///< asked for by the closed loop alone
+  bool by_runs_alone = false;             ///< and there no channel says so
   double missed_nats = 0.0;  ///< how much less likely the runs are in closed loop without it, all other numbers free
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "plant/parameters.h"
+#include "tools/identify/sliding.h"
 #include "tools/recording/recording.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -20,8 +21,6 @@ using Index = Eigen::Index;
 
 /// Sub-steps a sample along which friction is followed.
 inline constexpr int path_substeps = 4;
-/// Below this speed the motor's Coulomb friction may hold the axis: its force is then anything within its bounds.
-inline constexpr double standstill_m_per_s = 2e-4;
 
 /// Readings of a power meter that shows means over windows.
 struct MeterWindows {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plant/axis_model.h"
+#include "tools/identify/sliding.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -74,7 +75,10 @@ plant::AxisParameters without_stops(plant::AxisParameters parameters) {
 
 ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParameters& nominal,
                              const std::optional<controllers::CascadeGains>& controller, const StandInSettings& stand_in)
-    : recording_(&recording), view_{}, nominal_(nominal) {
+    : recording_(&recording),
+      motor_slides_(rows_of_surely_sliding(recording.at(channel::position_m), recording.sample_s)),
+      view_{},
+      nominal_(nominal) {
   const auto position_m = recording.at(channel::position_m);
   if (controller) {
     reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);

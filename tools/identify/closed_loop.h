@@ -33,11 +33,14 @@ class ClosedLoopRun {
   [[nodiscard]] bool has_controller() const noexcept { return !reference_.empty(); }
   /// Row by row what the drive was told to reach: the reference's velocity, or in its place that of the recorded motion.
   [[nodiscard]] std::span<const double> setpoint_m_per_s() const noexcept { return setpoint_m_per_s_; }
+  /// Row by row: has the motor's Coulomb friction fully set in? Asked by what reads a torque sensor.
+  [[nodiscard]] const std::vector<bool>& motor_slides() const noexcept { return motor_slides_; }
 
  private:
   const Recording* recording_;
   std::vector<controllers::Reference> reference_;
   std::vector<double> setpoint_m_per_s_;
+  std::vector<bool> motor_slides_;
   lanes::RecordView view_;
   plant::AxisParameters nominal_;
 };

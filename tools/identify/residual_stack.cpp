@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/identify/innovations.h"
+#include "tools/identify/sliding.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools {
@@ -90,8 +91,9 @@ void ResidualStack::weigh(const VectorXd& point, bool coloured, bool bounded) {
     rest_scatter_[c] = limits_events_ && row_by_row(c) ? rest_scatter(c, stretches[c]) : 0.0;
     for (std::size_t r = 0; r < runs_.size(); ++r) settle(r, c, stretches[c][r]);
     const std::size_t order = coloured ? settings_.whitening_order : 0;
-    whitening_[c] = bounded_ ? innovations_of(stretches[c], order, smallest_sigma(c)).colour
-                             : fit_whitening(stretches[c], order, smallest_sigma(c));
+    const auto told = while_told(c, std::move(stretches[c]));
+    whitening_[c] =
+        bounded_ ? innovations_of(told, order, smallest_sigma(c)).colour : fit_whitening(told, order, smallest_sigma(c));
   }
 }
 
@@ -130,7 +132,7 @@ MatrixXd ResidualStack::own(const MatrixXd& points) {
       for (std::size_t c = 0; c < channels.size(); ++c) {
         if (fitted_channels[c] == channel::power_W) even_out(r, channels[c]);
         settle(r, c, channels[c]);
-        whitening_[c].apply(channels[c]);
+        whiten(r, c, channels[c]);
         if (row_by_row(c)) limit_events(r, channels[c]);
         if (bounded_) bound(channels[c]);
         if (fitted_channels[c] == channel::torque_cmd_Nm && rounding_is_left_[r]) {
@@ -185,6 +187,33 @@ void ResidualStack::limit_events(std::size_t run, std::vector<double>& residuals
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (near_rest_[run][i]) residuals[i] = std::clamp(residuals[i], -largest_event, largest_event);
   }
+}
+
+bool ResidualStack::only_sliding(std::size_t channel) const {
+  return settings_.torque_sensor_while_sliding && fitted_channels[channel] == channel::torque_sensor_Nm;
+}
+
+/// All stretches of all runs of a channel that is read only while the axis slides; of any other the runs as they are.
+std::vector<std::vector<double>> ResidualStack::while_told(std::size_t channel,
+                                                           std::vector<std::vector<double>> runs) const {
+  if (!only_sliding(channel)) return runs;
+  std::vector<std::vector<double>> told;
+  for (std::size_t r = 0; r < runs.size() && given_[channel]; ++r)
+    for (const auto& [first, end] : stretches_of(runs_[r].motor_slides()))
+      told.emplace_back(runs[r].begin() + static_cast<std::ptrdiff_t>(first),
+                        runs[r].begin() + static_cast<std::ptrdiff_t>(end));
+  return told;
+}
+
+void ResidualStack::whiten(std::size_t run, std::size_t channel, std::vector<double>& residuals) const {
+  if (!only_sliding(channel) || !given_[channel]) return whitening_[channel].apply(residuals);
+  std::vector<double> white(residuals.size(), 0.0);
+  for (const auto& [first, end] : stretches_of(runs_[run].motor_slides())) {
+    const auto told = std::span(residuals).subspan(first, end - first);
+    whitening_[channel].apply(told);
+    std::ranges::copy(told, white.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  residuals = std::move(white);
 }
 
 /// e^2 / 2 -> c^2 (sqrt(1 + (e / c)^2) - 1), as the square of what is returned

@@ -48,6 +48,10 @@ class ResidualStack {
   [[nodiscard]] double rest_scatter(std::size_t channel, const std::vector<std::vector<double>>& stretches) const;
   void settle(std::size_t run, std::size_t channel, std::vector<double>& residuals) const;
   void bound(std::vector<double>& residuals) const;
+  [[nodiscard]] bool only_sliding(std::size_t channel) const;
+  [[nodiscard]] std::vector<std::vector<double>> while_told(std::size_t channel,
+                                                            std::vector<std::vector<double>> runs) const;
+  void whiten(std::size_t run, std::size_t channel, std::vector<double>& residuals) const;
   void limit_events(std::size_t run, std::vector<double>& residuals) const;
   [[nodiscard]] Eigen::MatrixXd own(const Eigen::MatrixXd& points);
   [[nodiscard]] double smallest_sigma(std::size_t channel) const;

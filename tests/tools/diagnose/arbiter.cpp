@@ -187,6 +187,27 @@ TEST(Missed, ANameThatShrinksToNothingGoesHoweverMuchItIsMissed) {
   EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
 }
 
+TEST(Missed, ANameThatTheRunsAloneToldGoesWhereItHasOutgrownThat) {
+  const auto left_of = [](bool by_runs_alone, double gain) {
+    const Cogged made;
+    const Candidate both{made.data.axis,
+                         {{&hypothesis("torque_gain_error"), {gain}}, {&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
+    Fit fit = made.fitter.linearised(both, made.whitening);
+    SearchResult result;
+    result.whitening = made.whitening;
+    for (const auto& effect : both.effects) {
+      result.found.emplace_back().effect = effect;
+      result.found.back().by_runs_alone = by_runs_alone;
+    }
+    Ruling settled{fit, both, likelihood(made.forward, extended(both)), 1e6, {}};  // as if each were missed that much
+    keep_missed(made.forward, made.fitter, result, fit, settled, silent);
+    return result.found.size();
+  };
+  EXPECT_EQ(left_of(true, 0.08), 2U);
+  EXPECT_EQ(left_of(true, 0.16), 1U);
+  EXPECT_EQ(left_of(false, 0.16), 2U);
+}
+
 TEST(Sizes, WhatOtherNumbersCanTakeUpIsTakenBackWhereItsOwnAreNotTold) {
   const Cogged made;
   Candidate model{made.data.axis,
@@ -246,6 +267,8 @@ TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
   EXPECT_EQ(left_of(0.02, 0.0), 1U);
   EXPECT_EQ(left_of(0.1, 0.0), 0U);
   EXPECT_EQ(left_of(0.1, 1000.0), 1U) << "the closed loop misses it";
+  EXPECT_EQ(left_of(0.03, 5.0), 1U);
+  EXPECT_EQ(left_of(0.03, -5.0), 0U) << "the closed loop does better without";
 }
 
 TEST(Sizes, WhatComesOutAtASizeThatCannotBeIsTakenBackHoweverMuchItIsMissed) {

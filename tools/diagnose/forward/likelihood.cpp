@@ -8,6 +8,7 @@
 
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/innovations.h"
+#include "tools/identify/sliding.h"
 #include "tools/median.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -20,6 +21,15 @@ constexpr double least_reading = 0.2;  // of the rms: a meter's error is partly 
 struct Channel {
   std::vector<std::vector<double>> residuals;
   std::vector<std::vector<std::size_t>> stretch;
+
+  /// Before the motor's friction has set in its sensor tells nothing that a model here foresees.
+  void take_sliding(const std::vector<double>& all, const std::vector<std::size_t>& at, const std::vector<bool>& slides) {
+    const auto row = [](const auto& values, std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+    for (const auto& [first, end] : stretches_of(slides)) {
+      residuals.emplace_back(row(all, first), row(all, end));
+      stretch.emplace_back(row(at, first), row(at, end));
+    }
+  }
 };
 
 void even_out_power(std::vector<double>& residual, std::span<const double> power_W, const MeteredPower& meter) {
@@ -54,6 +64,10 @@ Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis) {
       if (metered) even_out_power(residuals[c], power, meter);
       std::vector<std::size_t> at(residuals[c].size());
       for (std::size_t i = 0; i < at.size(); ++i) at[i] = first + (metered ? meter.rows[i] : i) / length;
+      if (fitted_channels[c] == channel::torque_sensor_Nm) {
+        channels[c].take_sliding(residuals[c], at, forward.runs()[r].motor_slides());
+        continue;
+      }
       channels[c].residuals.push_back(std::move(residuals[c]));
       channels[c].stretch.push_back(std::move(at));
     }

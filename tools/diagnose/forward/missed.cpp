@@ -27,7 +27,7 @@ struct Lacking {
   const Hypothesis* hypothesis;
   Ruling rest;
   double short_of_nats;  ///< what it would take to stay
-  bool shrunk;           ///< it has no size beside the others: however much likelier the runs become, it tells nothing
+  bool cannot_be;        ///< not of the size that it has beside the others: however much likelier the runs become
 };
 
 /// Asks every name, and notes the answers.
@@ -47,10 +47,11 @@ class Asked {
       if (settled.value - rest.value < std::max(doubtful_nats, least_nats(*named))) asked_fairly(settled, rest, e);
       named->missed_nats = settled.value - rest.value;
       progress_(fmt::format("closed loop, all numbers free, without {}: {:+.0f} nats", hypothesis->id, -named->missed_nats));
-      const bool shrunk = !possible(settled.model.effects[e], settled.model.axis);
-      const double short_of_nats = shrunk ? 1e300 : least_nats(*named) - named->missed_nats;
+      const Active& now = settled.model.effects[e];
+      const bool cannot_be = !possible(now, settled.model.axis) || (named->by_runs_alone && !runs_may_tell(now));
+      const double short_of_nats = cannot_be ? 1e300 : least_nats(*named) - named->missed_nats;
       if (short_of_nats > 0.0 && (!least || short_of_nats > least->short_of_nats))
-        least = Lacking{hypothesis, std::move(rest), short_of_nats, shrunk};
+        least = Lacking{hypothesis, std::move(rest), short_of_nats, cannot_be};
     }
     return least;
   }
@@ -93,7 +94,7 @@ void keep_missed(const ForwardModel& forward, const Fitter& fitter, SearchResult
     auto least = asked.least_missed(found, fit, settled);
     if (!least) return;
     const bool beside_less = settled.value > value + of_consequence_nats;  // asked before the others did better
-    if (beside_less && !least->shrunk && repeats++ < most_repeats) continue;
+    if (beside_less && !least->cannot_be && repeats++ < most_repeats) continue;
     progress(fmt::format("closed loop: {} is not missed", least->hypothesis->id));
     std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == least->hypothesis; });
     settled = std::move(least->rest);

@@ -23,6 +23,7 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   output_error.prior = 1.0;
   output_error.doubt_rests = false;
   output_error.encoder_grids = 0;
+  output_error.torque_sensor_while_sliding = true;
   output_error.largest_deviations = 3.0;
   output_error.rounds = settings.rounds;
   output_error.most_iterations = settings.most_iterations;

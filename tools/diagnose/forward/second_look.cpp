@@ -41,13 +41,6 @@ Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, bool 
   return best;
 }
 
-double largest_amplitude(const Active& effect) {
-  double largest = 0.0;
-  for (std::size_t j = 0; j < effect.q.size(); ++j)
-    if (effect.hypothesis->parameters[j].kind == Kind::amplitude) largest = std::max(largest, std::abs(effect.q[j]));
-  return largest;
-}
-
 /// Of as many deviations in any of the hypotheses: what the closed loop names, it vouches for.
 double chance_of(double deviations) {
   return std::min(1.0, 0.5 * std::erfc(deviations / std::numbers::sqrt2) * static_cast<double>(hypotheses().size()));
@@ -77,7 +70,9 @@ class SecondLook {
     auto best = std::ranges::find(answers, true, &Answer::enough);
     while (best != answers.end() && !told_fairly(*best, *settled)) best = std::find_if(++best, answers.end(), &enough);
     if (best == answers.end() || !stands_out(answers, *best, *settled)) return false;
+    const bool by_runs_alone = best->by_runs_alone;
     const auto rivals = settled_against_others(answers, best);
+    if (by_runs_alone && !runs_may_tell(best->ruling.model.effects.back())) return false;
     const double gain = fit.cost - best->ruling.fit.cost;
     found.found.push_back({.effect = best->ruling.model.effects.back(),
                            .gain = gain,
@@ -86,7 +81,8 @@ class SecondLook {
                            .p_false_alarm = chance_of(compared(best->ruling.likelihood, settled->likelihood).deviations),
                            .rivals = rivals,
                            .held_everywhere = false,
-                           .by_closed_loop = true});
+                           .by_closed_loop = true,
+                           .by_runs_alone = by_runs_alone});
     fit = best->ruling.fit;
     settled = std::move(best->ruling);
     return true;
@@ -121,7 +117,7 @@ class SecondLook {
     contest(answer.ruling, without, forward_, fitter_);
     const double nats = answer.ruling.value - without.value;
     progress_(fmt::format("closed loop, {}, both polished further: {:+.0f} nats", h.id, nats));
-    return nats >= *h.told_by_runs_nats;
+    return nats >= *h.told_by_runs_nats && runs_may_tell(answer.ruling.model.effects.back());
   }
 
   /// As far as polishing goes: what it has still to gain would be put down to the effect that is asked about.
@@ -210,7 +206,7 @@ class SecondLook {
                           100.0 * seen.share));
     const bool closer_by_far =
         seen.ratio >= least_ratio && seen.share >= least_share && nats >= least_nats && deviations >= least_deviations;
-    const bool slight = largest_amplitude(one.model.effects.back()) <= h.most_told_by_runs;
+    const bool slight = runs_may_tell(one.model.effects.back());
     const bool surely_read = h.only_readings && slight && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
                              deviations >= sure_deviations;
     const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && deviations >= loud_deviations;

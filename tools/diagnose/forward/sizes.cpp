@@ -75,6 +75,7 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
                    Fit& fit, Eigen::MatrixXd& covariance, const std::function<void(std::string_view)>& progress) {
   // right names of three challenge sets change some channel by 0.38 and more; a breakaway that was none, by 0.012
   constexpr double least_change = 0.03, doubtless_change = 0.05, least_deviations = 3.0, least_share = 0.2;
+  constexpr double least_share_not_missed = 0.5;  // where the runs are likelier without it
   constexpr double surely_missed_nats = 300.0;
   Index from = fit.base_count();
   Nrmse with = forward.nrmse(extended(fit.model));
@@ -89,8 +90,10 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     auto less = forward.nrmse(extended(rest));
     const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
     const auto* named = found.of(hypothesis);
+    const bool not_missed = named != nullptr && named->missed_nats < 0.0;
     const bool agreed =
-        (named != nullptr && named->by_closed_loop) || share_of_size(fit.model.effects[e], by_inverse_model) > least_share;
+        (named != nullptr && named->by_closed_loop) ||
+        share_of_size(fit.model.effects[e], by_inverse_model) > (not_missed ? least_share_not_missed : least_share);
     const double least = told ? least_change : doubtless_change;
     const bool sure = named != nullptr && named->missed_nats > surely_missed_nats;
     bool has_size =

@@ -44,6 +44,7 @@ Hypothesis torque_gain_error() {
           .confused_with = {"sensor_gain"},
           .closed_loop_starts = {{0.0}},
           .told_by_runs_nats = 500.0,
+          .most_told_by_runs = 0.1,
           .friction = false};
 }
 
