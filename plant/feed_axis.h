@@ -70,7 +70,7 @@ class FeedAxis {
   AxisParameters parameters_;
   AxisModel<double> model_;
   std::unique_ptr<EffectChain> chain_;  ///< none where no effect runs in the tick
-  AxisModel<double> driven_;            ///< what the integrator moves: the model, less a table that hangs on a spring
+  AxisModel<double> driven_;            ///< what the integrator moves: the model, less what effects stand for
   Resolution resolution_;
   AxisState<double> state_;
   AxisLosses<double> losses_;

@@ -71,6 +71,8 @@ EffectChain::EffectChain(const AxisParameters& axis, const AxisModel<double>& mo
 
 AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noexcept {
   AxisModel<double> without = model;
+  if (std::ranges::any_of(links_, [](const Link& link) { return link.effect->is_motor_friction(); }))
+    without.coulomb_pos_N = without.coulomb_neg_N = 0.0;
   if (!coupling_) return without;
   without.mass_kg -= model.table_mass_kg;
   without.per_mass_per_kg = 1.0 / without.mass_kg;

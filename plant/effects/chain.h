@@ -29,7 +29,8 @@ class EffectChain {
   [[nodiscard]] bool has_table() const noexcept { return coupling_.has_value(); }
   [[nodiscard]] bool remembers_forces() const noexcept { return !taking_forces_.empty(); }
 
-  /// What the integrator moves: the model, or without table, guide and end stops where the table is a second body.
+  /// What the integrator moves: the model, less the motor's Coulomb friction where an effect is that, and without table,
+  /// guide and end stops where the table is a second body.
   [[nodiscard]] AxisModel<double> driven(const AxisModel<double>& model) const noexcept;
   /// Sub-steps that the effects want at least.
   [[nodiscard]] Resolution at_least(Resolution resolution) const noexcept;

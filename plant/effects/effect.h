@@ -78,6 +78,8 @@ class Effect {
   virtual void reset(double /*position_m*/) noexcept {}
   /// Set-up: a share in the coupling between screw and table.
   virtual void join(CouplingParameters& /*coupling*/) const noexcept {}
+  /// Set-up: does its force stand for the motor's Coulomb friction, so that the integrator has none of its own?
+  [[nodiscard]] virtual bool is_motor_friction() const noexcept { return false; }
 
   /// Once at the start of a tick.
   virtual void tick(const TickStart& /*start*/) noexcept FEEDTWIN_REALTIME {}

@@ -25,6 +25,7 @@
 #include "plant/effects/learned_residual.h"
 #include "plant/effects/load_dependent_friction.h"
 #include "plant/effects/local_friction.h"
+#include "plant/effects/motor_presliding.h"
 #include "plant/effects/payload.h"
 #include "plant/effects/position_friction.h"
 #include "plant/effects/power_meter_window.h"
@@ -62,6 +63,7 @@ constexpr std::array table{
     torque_gain_error,
     torque_ripple,
     cogging,
+    motor_presliding,
     direction_dependent_friction,
     sublinear_viscous,
     presliding_memory,

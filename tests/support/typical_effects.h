@@ -34,6 +34,7 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"lead_error", {2e-4}},
       {"load_dependent_friction", {0.2}},
       {"local_friction", {20.0, 1e-3, 2e-3}},
+      {"motor_presliding", {1e-6}},
       {"payload", {8.0}},
       {"position_friction", {0.5}},
       {"power_meter_window", {0.05}},

@@ -15,6 +15,7 @@
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/forward/second_look.h"
+#include "tools/diagnose/forward/setting_in.h"
 #include "tools/diagnose/forward/sizes.h"
 #include "tools/diagnose/forward/stiffness.h"
 #include "tools/diagnose/holdout.h"
@@ -72,6 +73,7 @@ class Diagnosing {
     found_ = search(fitter_, Bar{}, progress_);
     fit_ = found_.final;
     settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
+    settled_ = ask_how_motor_sets_in(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
     const auto names_before = fit_.model.effects;
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
     if (settled_ && !same_names(names_before)) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
@@ -104,9 +106,20 @@ class Diagnosing {
   /// With the numbers as the closed loop has them, where it was asked.
   [[nodiscard]] const Candidate& as_settled() const { return settled_ ? settled_->model : fit_.model; }
 
+  /// A name that the closed loop gave may leave the inverse model with numbers that simulate nothing well; by those no other
+  /// name can be judged.
+  [[nodiscard]] bool is_far_behind_settled() const {
+    constexpr double far = 2.0;
+    if (!settled_) return false;
+    const auto inverse = forward_.nrmse(extended(fit_.model)), closed_loop = forward_.nrmse(extended(settled_->model));
+    return std::ranges::any_of(inverse,
+                               [&](const auto& channel) { return channel.second > far * closed_loop.at(channel.first); });
+  }
+
   /// What was named in place of a name that came later goes.
   void ask_the_others_again() {
     const std::size_t before = fit_.model.effects.size();
+    if (is_far_behind_settled()) return;
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
     if (fit_.model.effects.size() < before) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
   }
@@ -148,6 +161,7 @@ class Diagnosing {
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
       result_.effects.push_back(std::move(*difference));
     result_.recalibrated = recalibrated(fitter_, fit_, covariance_);
+    if (motor_presliding_m(data_.axis) == 0.0) result_.motor_presliding_m = motor_presliding_m(fit_.model.axis);
     auto ways = ways_of(fit_.model);
     if (result_.effects.empty()) ways.push_back(extended(found_.recalibrated.model)), ways.push_back(data_.axis);
     result_.updated = ways[closest(forward_, ways)].common;

@@ -55,9 +55,10 @@ struct Diagnosis {
   Energy energy_before, energy_after;
   std::vector<Suspect> suspects;  ///< beyond chance, too weak to be named
   NextExperiment next;
-  double detection_limit_N = 0.0;  ///< RMS of the weakest effect that would have been named
-  plant::AxisParameters updated;   ///< recalibrated and extended
-  std::vector<Figure> pictures;    ///< where the mismatch lives, before and after, on held-out runs
+  double detection_limit_N = 0.0;   ///< RMS of the weakest effect that would have been named
+  double motor_presliding_m = 0.0;  ///< path over which the motor's friction sets in, where it was found; 0: at once
+  plant::AxisParameters updated;    ///< recalibrated and extended
+  std::vector<Figure> pictures;     ///< where the mismatch lives, before and after, on held-out runs
 };
 
 /// @param progress called with what is being done

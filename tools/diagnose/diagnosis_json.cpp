@@ -87,6 +87,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   out["recalibrated"] = json::object();
   for (const auto& one : diagnosis.recalibrated)
     out["recalibrated"][one.key] = {{"was", one.was}, {"now", one.now.value}, {"ci90", {one.now.low, one.now.high}}};
+  if (diagnosis.motor_presliding_m > 0.0) out["motor_presliding_m"] = diagnosis.motor_presliding_m;
   out["holdout"] = of(diagnosis.holdout);
   out["holdout_inverse_model"] = of(diagnosis.holdout_inverse);
   out["energy"] = json::object();

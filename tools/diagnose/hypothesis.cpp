@@ -29,6 +29,13 @@ bool worth_naming(const Active& active) {
   return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
 }
 
+bool bears_out(const Active& active, std::string_view channel) {
+  const Hypothesis& h = *active.hypothesis;
+  if (!h.only_readings) return true;
+  if (h.reading != nullptr) return channel == h.reading(active.q);
+  return channel == channel::torque_sensor_Nm || channel == channel::force_sensor_N;
+}
+
 bool runs_may_tell(const Active& active) {
   for (std::size_t j = 0; j < active.q.size(); ++j)
     if (active.hypothesis->parameters[j].kind == Kind::amplitude &&

@@ -99,7 +99,9 @@ struct Hypothesis {
   double least_error_ratio = 1.015;
   /// And in closed loop, all other numbers free, the runs must be so many nats less likely.
   double least_missed_nats = -1e300;
-  bool only_readings = false;    ///< changes what the sensors show and nothing else: only their channels bear it out
+  bool only_readings = false;  ///< changes what the sensors show and nothing else: only their channels bear it out
+  /// The one channel of them that these numbers change; nullptr: either sensor.
+  std::string_view (*reading)(std::span<const double> q) = nullptr;
   bool about_reversals = false;  ///< acts there first: its strength counts there too
   /// Is this size a finding? Smaller ones stay in the model as nuisances, since they explain how the channels read.
   bool (*finding)(std::span<const double> q) = nullptr;
@@ -143,6 +145,8 @@ struct Active {
 [[nodiscard]] std::string in_words(const Active& active, const plant::AxisParameters& axis);
 /// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
 [[nodiscard]] bool worth_naming(const Active& active);
+/// May this channel bear the effect out? All do but for what only changes how a sensor reads.
+[[nodiscard]] bool bears_out(const Active& active, std::string_view channel);
 /// Is it so small that the runs alone may tell it, though no channel comes closer?
 [[nodiscard]] bool runs_may_tell(const Active& active);
 /// Is it an unknown of the inverse model, and of the intervals?

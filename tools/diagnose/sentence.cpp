@@ -51,7 +51,9 @@ std::string next_move_of(const NextExperiment& next) {
                      100.0 * *next.p_resolve);
 }
 
-std::string summary_of(const Diagnosis& diagnosis) {
+namespace {
+
+std::string outcome_of(const Diagnosis& diagnosis) {
   const auto& verdict = diagnosis.verdict;
   if (verdict == "agrees")
     return fmt::format("Model and recording agree; an effect of {:.2g} N rms would have been named.",
@@ -84,6 +86,18 @@ std::string summary_of(const Diagnosis& diagnosis) {
   for (const auto& effect : diagnosis.effects) ids.emplace_back(effect.hypothesis->id);
   return fmt::format("{}: {}.", verdict == "recalibrate" ? "A number of the model is wrong" : "Missing from the model",
                      list_of(ids));
+}
+
+}  // namespace
+
+std::string summary_of(const Diagnosis& diagnosis) {
+  std::string text = outcome_of(diagnosis);
+  if (diagnosis.motor_presliding_m > 0.0)
+    text += fmt::format(
+        " The motor's friction sets in over about {:.2g} um after each reversal, not at once: so it does in the updated "
+        "axis.",
+        1e6 * diagnosis.motor_presliding_m);
+  return text;
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -32,7 +32,8 @@ const char* verdict_of(const Diagnosis& result) {
   if (std::ranges::any_of(result.effects, open)) return "named-set";
   if (anything_missing(result)) return "named";
   if (!result.suspects.empty() && result.effects.empty()) return "cannot-tell";
-  return result.recalibrated.empty() && result.effects.empty() ? "agrees" : "recalibrate";
+  const bool as_given = result.recalibrated.empty() && result.effects.empty() && result.motor_presliding_m == 0.0;
+  return as_given ? "agrees" : "recalibrate";
 }
 
 bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,

@@ -14,12 +14,8 @@ Confirmation confirm(const ForwardModel& forward, const Fitter& fitter, const Wh
   Confirmation found;
   found.without = fitter.fit(without(model, effect), whitening, iterations);  // its numbers may take up what they can
   const auto with = forward.nrmse(extended(model)), less = forward.nrmse(extended(found.without.model));
-  const bool only_readings = model.effects[effect].hypothesis->only_readings;
-  const auto bears_out = [only_readings](std::string_view name) {
-    return !only_readings || name == channel::torque_sensor_Nm || name == channel::force_sensor_N;
-  };
   for (const auto& [channel, error] : with)
-    if (error > 0.0 && bears_out(channel) && less.at(channel) > found.error_ratio * error)
+    if (error > 0.0 && bears_out(model.effects[effect], channel) && less.at(channel) > found.error_ratio * error)
       found.channel = channel, found.error_ratio = less.at(channel) / error;
   return found;
 }

@@ -1,6 +1,7 @@
 #include "tools/diagnose/forward/ruling.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/polish.h"
@@ -20,7 +21,9 @@ double freedom(const Candidate& model) {
 
 /// The model with all numbers that the other has too as the other has them.
 Candidate with_numbers_of(const Candidate& other, Candidate model) {
+  auto own_effects = std::move(model.axis.effects);
   model.axis = other.axis;
+  model.axis.effects = std::move(own_effects);
   for (auto& effect : model.effects)
     for (const auto& theirs : other.effects)
       if (theirs.hypothesis == effect.hypothesis) effect.q = theirs.q;

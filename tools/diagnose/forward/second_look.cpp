@@ -22,6 +22,7 @@ constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
 constexpr double glance_share = 0.3;  // of the nats that tell it: what a glance must promise
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
 constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
+constexpr double least_deviations_by_runs = 4.5;      // likewise of what is no reading: right ones 6.0, wrong ones 3.1
 constexpr double least_deviations_of_readings = 9.0;  // by the runs alone: right ones 9.7 and more, wrong ones 8.1 and less
 
 /// How a model brings a channel closer, of those that are off beyond noise.
@@ -30,15 +31,20 @@ struct Closer {
   double ratio = 1.0, share = 0.0;
 };
 
-Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, bool only_readings) {
+Closer closer(const Nrmse& before, const Nrmse& after, const Nrmse& floor, const Active& effect) {
   Closer best;
   for (const auto& [name, error] : before) {
-    const bool reading = name == channel::torque_sensor_Nm || name == channel::force_sensor_N;
-    if (error < beyond_noise * floor.at(name) || (only_readings && !reading)) continue;
+    if (error < beyond_noise * floor.at(name) || !bears_out(effect, name)) continue;
     const double ratio = error / std::max(after.at(name), 1e-12);
     if (ratio > best.ratio) best = {name, ratio, (error - after.at(name)) / (error - floor.at(name))};
   }
   return best;
+}
+
+/// Channel by channel the lesser error.
+Nrmse lesser(Nrmse one, const Nrmse& other) {
+  for (auto& [name, error] : one) error = std::min(error, other.at(name));
+  return one;
 }
 
 /// Of as many deviations in any of the hypotheses: what the closed loop names, it vouches for.
@@ -61,6 +67,7 @@ class SecondLook {
     settled =
         polished_out(settled ? rule_again(*settled, forward_, fitter_, SlopesOf::before) : rule(fit, forward_, fitter_));
     errors_ = forward_.nrmse(extended(settled->model));
+    least_errors_ = lesser(forward_.nrmse(extended(fit.model)), errors_);
     if (!is_off(errors_)) return false;
     std::vector<Answer> answers;
     for (const auto& question : asked)
@@ -199,7 +206,8 @@ class SecondLook {
   [[nodiscard]] Answer judged(Answer answer, const Ruling& now) const {
     const Hypothesis& h = *answer.score->hypothesis;
     const Ruling& one = answer.ruling;
-    const auto seen = closer(errors_, forward_.nrmse(extended(one.model)), floor_, h.only_readings);
+    const auto seen = closer(h.only_readings ? least_errors_ : errors_, forward_.nrmse(extended(one.model)), floor_,
+                             one.model.effects.back());
     const double nats = one.value - now.value, deviations = compared(one.likelihood, now.likelihood).deviations;
     progress_(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %", h.id,
                           nats, deviations, seen.channel.empty() ? "no channel" : seen.channel, seen.ratio,
@@ -211,7 +219,7 @@ class SecondLook {
                              deviations >= sure_deviations;
     const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && deviations >= loud_deviations;
     const bool told = h.told_by_runs_nats && slight && nats >= *h.told_by_runs_nats &&
-                      deviations >= (h.only_readings ? least_deviations_of_readings : least_deviations);
+                      deviations >= (h.only_readings ? least_deviations_of_readings : least_deviations_by_runs);
     answer.by_runs_alone = told && !(closer_by_far || loud || surely_read);
     answer.enough = told || closer_by_far || loud || surely_read;
     return answer;
@@ -221,6 +229,7 @@ class SecondLook {
   const Fitter& fitter_;
   const std::function<void(std::string_view)>& progress_;
   Nrmse floor_, errors_;
+  Nrmse least_errors_;  ///< polished or not: polishing may have left a sensor to bring the command closer
 };
 
 }  // namespace

@@ -33,6 +33,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
           {"force_sensor_gain", about(q, force) ? 1.0 + q[1] : 1.0}};
 }
 
+std::string_view reading(std::span<const double> q) {
+  return about(q, torque) ? channel::torque_sensor_Nm : channel::force_sensor_N;
+}
+
 /// One that runs to its bound stands for something else.
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   const double error = std::abs(q[about(q, torque) ? 0 : 1]);
@@ -59,6 +63,7 @@ Hypothesis sensor_gain() {
           .absorbed = true,
           .far_off_gain = 40.0,
           .only_readings = true,
+          .reading = reading,
           .confused_with = {"torque_gain_error"},
           .starts = {{0.0, 0.0, torque}, {0.0, 0.0, force}},
           .closed_loop_starts = {{0.0, 0.0, torque}, {0.0, 0.0, force}},
