@@ -50,7 +50,7 @@ std::optional<Ruling> ask_how_motor_sets_in(const ForwardModel& forward, const F
   if (!can_be_told || motor_presliding_m(fit.model.axis) > 0.0) return settled;
   const auto [distance_m, nats] = likeliest(forward, settled ? settled->model : fit.model);
   if (nats < clearly_nats) return settled;
-  const Ruling at_once = settled ? *settled : rule(fit, forward, fitter);
+  Ruling at_once = settled ? *settled : rule(fit, forward, fitter);
   Fit other = fit;
   give(other.model.axis, distance_m);
   Ruling over_path = rule_beside(at_once, other, forward, fitter, SlopesOf::anew);
