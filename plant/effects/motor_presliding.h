@@ -1,5 +1,5 @@
 #pragma once
-// The motor's Coulomb friction where it sets in over a way instead of at once: one bristle (Dahl 1968).
+// The motor's Coulomb friction where it sets in over a path instead of at once: one bristle (Dahl 1968).
 //
 //   dF/ds = sigma (1 - F / F_M),   s the path since the reversal, sigma = (F_M+ + F_M-) / (2 x_0), x_0 = distance_m
 //
@@ -17,19 +17,19 @@ namespace feedtwin::plant::effects {
 
 class MotorPresliding final : public Effect {
  public:
-  MotorPresliding(const EffectContext& context, const EffectSetting& setting)
-      : coulomb_N_(context.axis.motor.coulomb_N), is_on_(setting.values[0] > 0.0) {
-    stiffness_N_per_m_ = is_on_ ? 0.5 * (coulomb_N_.pos + coulomb_N_.neg) / setting.values[0] : 0.0;
+  MotorPresliding(const EffectContext& context, const EffectSetting& setting) : coulomb_N_(context.axis.motor.coulomb_N) {
+    const double distance_m = setting.values[0];
+    stiffness_N_per_m_ = distance_m > 0.0 ? 0.5 * (coulomb_N_.pos + coulomb_N_.neg) / distance_m : 0.0;
     constexpr double least_N = 1e-9;  // a direction without friction divides by it
     coulomb_N_ = {std::max(coulomb_N_.pos, least_N), std::max(coulomb_N_.neg, least_N)};
   }
 
   void reset(double /*position_m*/) noexcept override { force_N_ = 0.0; }
 
-  [[nodiscard]] bool is_motor_friction() const noexcept override { return is_on_; }
+  [[nodiscard]] bool is_motor_friction() const noexcept override { return stiffness_N_per_m_ > 0.0; }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    if (!is_on_) return {};
+    if (!is_motor_friction()) return {};
     const Path path = along(m);
     const double u = path.u, left_N = path.coulomb_N - path.forth * force_N_;
     constexpr double short_path = 1e-3;  // below it by series
@@ -39,13 +39,13 @@ class MotorPresliding final : public Effect {
   }
 
   void advance(const EffectMotion& m) noexcept override {
-    if (!is_on_) return;
+    if (!is_motor_friction()) return;
     const Path path = along(m);
     force_N_ = path.forth * (path.coulomb_N - (path.coulomb_N - path.forth * force_N_) * std::exp(-path.u));
   }
 
   [[nodiscard]] double stored_J() const noexcept override {
-    return stiffness_N_per_m_ > 0.0 ? 0.5 * force_N_ * force_N_ / stiffness_N_per_m_ : 0.0;
+    return is_motor_friction() ? 0.5 * force_N_ * force_N_ / stiffness_N_per_m_ : 0.0;
   }
 
  private:
@@ -60,8 +60,7 @@ class MotorPresliding final : public Effect {
   }
 
   Directional coulomb_N_;
-  bool is_on_;
-  double stiffness_N_per_m_ = 0.0, force_N_ = 0.0;
+  double stiffness_N_per_m_, force_N_ = 0.0;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning

@@ -118,8 +118,8 @@ class Diagnosing {
 
   /// What was named in place of a name that came later goes.
   void ask_the_others_again() {
-    const std::size_t before = fit_.model.effects.size();
     if (is_far_behind_settled()) return;
+    const std::size_t before = fit_.model.effects.size();
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
     if (fit_.model.effects.size() < before) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
   }

@@ -38,7 +38,7 @@ struct OutputErrorSettings {
   /// Rows at rest and about it count by what an encoder's rounding leaves of them: a rest's mean as one reading, the ticks
   /// of sticking and setting off by a few deviations at most. Not where what is missing may act at rest.
   bool doubt_rests = true;
-  /// The motor's Coulomb friction sets in within some micrometres: how, no model here says, and until it has, the torque
+  /// The motor's Coulomb friction sets in within some micrometres; how, Eq. 1 does not say, and until it has, the torque
   /// sensor tells how the motor's friction and the screw's share what they hold, and nothing else.
   bool torque_sensor_while_sliding = false;
   /// After the first round, a row that is off by more deviations than this counts by the root of its size only

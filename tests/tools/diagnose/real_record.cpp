@@ -71,6 +71,7 @@ TEST(ForwardModel, ClosedLoopOfTheRealRecordOnLapsThatWereNotFitted) {
   const auto& torque = found.holdout.at("torque_cmd_Nm");
   fmt::print("laps not fitted: closed loop {:.2f} % (recalibrated alone {:.2f} %), inverse model {:.3f} %\n",
              100.0 * torque.after, 100.0 * torque.recalibrated, 100.0 * found.holdout_inverse.at("torque_cmd_Nm").after);
+  for (const auto& effect : found.effects) fmt::print("{}: {}\n", effect.hypothesis->id, effect.sentence);
   EXPECT_LT(torque.after, 0.0385);
   EXPECT_LT(torque.after, 0.85 * torque.recalibrated);
   EXPECT_LT(found.holdout_inverse.at("torque_cmd_Nm").after, 0.0195);

@@ -1,4 +1,4 @@
-// How the motor's friction sets in at a reversal is in no model here: a torque sensor that shows it another way must move
+// How the motor's friction sets in at a reversal is not in Eq. 1: a torque sensor that shows it another way must move
 // neither what the runs are held to be worth nor any number.
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ struct Tampered {
   }
 };
 
-TEST(MotorSettingIn, MovesNeitherLikelihoodNorNumbers) {
+TEST(TorqueSensor, BeforeTheMotorSlidesMovesNeitherLikelihoodNorNumbers) {
   const Tampered as_made(0.0, 0.0), otherwise(0.0, shown_otherwise_Nm), sliding(shown_otherwise_Nm, 0.0);
   EXPECT_DOUBLE_EQ(otherwise.nats(), as_made.nats());
   EXPECT_LT(sliding.nats(), as_made.nats() - 100.0);
