@@ -29,7 +29,7 @@ class MotorPresliding final : public Effect {
   [[nodiscard]] bool is_motor_friction() const noexcept override { return stiffness_N_per_m_ > 0.0; }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    if (!is_motor_friction()) return {};
+    if (stiffness_N_per_m_ <= 0.0) return {};
     const Path path = along(m);
     const double u = path.u, left_N = path.coulomb_N - path.forth * force_N_;
     constexpr double short_path = 1e-3;  // below it by series
@@ -39,13 +39,13 @@ class MotorPresliding final : public Effect {
   }
 
   void advance(const EffectMotion& m) noexcept override {
-    if (!is_motor_friction()) return;
+    if (stiffness_N_per_m_ <= 0.0) return;
     const Path path = along(m);
     force_N_ = path.forth * (path.coulomb_N - (path.coulomb_N - path.forth * force_N_) * std::exp(-path.u));
   }
 
   [[nodiscard]] double stored_J() const noexcept override {
-    return is_motor_friction() ? 0.5 * force_N_ * force_N_ / stiffness_N_per_m_ : 0.0;
+    return stiffness_N_per_m_ > 0.0 ? 0.5 * force_N_ * force_N_ / stiffness_N_per_m_ : 0.0;
   }
 
  private:
