@@ -20,6 +20,7 @@
 #include "tools/diagnose/forward/stiffness.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
+#include "tools/diagnose/motor_friction.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/screen.h"
@@ -73,7 +74,7 @@ class Diagnosing {
     found_ = search(fitter_, Bar{}, progress_);
     fit_ = found_.final;
     settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
-    settled_ = ask_how_motor_sets_in(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
+    search_anew_if_the_motor_sets_in();
     const auto names_before = fit_.model.effects;
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
     if (settled_ && !same_names(names_before)) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
@@ -91,6 +92,17 @@ class Diagnosing {
     if (same_names(names_then)) return;
     found_.last = screen(fitter_, fit_, found_.whitening);  // what went may have hidden another
     look_again_at_the_runs();
+  }
+
+  /// Where the motor's friction sets in over a path, what was found without it stood for that path about every reversal.
+  void search_anew_if_the_motor_sets_in() {
+    const bool known = motor_presliding_m(data_.axis) > 0.0;
+    settled_ = ask_how_motor_sets_in(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
+    if (known || motor_presliding_m(fit_.model.axis) == 0.0) return;
+    fitter_.take_effects(fit_.model.axis.effects);
+    found_ = search(fitter_, Bar{}, progress_);
+    fit_ = found_.final;
+    settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
   }
 
   [[nodiscard]] bool same_names(const std::vector<Active>& as) const {
@@ -225,7 +237,7 @@ class Diagnosing {
   Case data_;
   const double jump_share_;
   const InverseModel model_;
-  const Fitter fitter_;
+  Fitter fitter_;
   ForwardModel forward_;
   SearchResult found_;
   Fit fit_, by_inverse_model_;

@@ -3,6 +3,7 @@
 // residual. The prior on the nominal numbers also settles what the recording can't separate.
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "tools/diagnose/base_parameters.h"
@@ -51,6 +52,8 @@ class Fitter {
   [[nodiscard]] const RepeatableStructure& structure() const { return structure_; }
   [[nodiscard]] const plant::AxisParameters& nominal() const { return nominal_; }
   [[nodiscard]] const std::vector<BaseParameter>& base() const { return base_; }
+  /// From here on the axis has these effects of its own; its nominal numbers stay.
+  void take_effects(std::vector<plant::EffectSetting> effects) { nominal_.effects = std::move(effects); }
   /// (value - nominal) in tolerances.
   [[nodiscard]] Vector deviations(const plant::AxisParameters& axis) const;
   /// What one tolerance is, in the parameter's unit.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "plant/axis_model.h"
+#include "tools/diagnose/motor_friction.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -81,13 +82,12 @@ Baseline InverseModel::baseline(const plant::AxisParameters& axis, const Contact
   const Track& track = tracks_[run];
   const auto model = plant::make_axis_model(axis);
   Baseline base;
-  Vector motor(track.size), viscous(track.size), power(track.size);
+  Vector motor = motor_coulomb_N(track, axis), viscous(track.size), power(track.size);
   const auto& electrical = axis.motor;
   for (Index k = 0; k < track.size; ++k) {
     const double v = track.velocity_m_per_s[k];
     const bool forward = v > 0.0;
-    const double coulomb = forward ? model.coulomb_pos_N : model.coulomb_neg_N;
-    motor[k] = coulomb * track.motor_direction[k] + (forward ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m) * v;
+    motor[k] += (forward ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m) * v;
     viscous[k] = (forward ? axis.ball_screw.viscous_Ns_per_m.pos : axis.ball_screw.viscous_Ns_per_m.neg) * v;
     const auto& linear = electrical.electrical_linear_Ws_per_m;
     const auto& quadratic = electrical.electrical_quadratic_Ws2_per_m2;

@@ -1,6 +1,7 @@
 // A motor whose friction sets in over a path is given to the model where a torque sensor shows it, and only there.
 
 #include "tools/diagnose/forward/setting_in.h"
+#include "tools/diagnose/motor_friction.h"
 
 #include <gtest/gtest.h>
 

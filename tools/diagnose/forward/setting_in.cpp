@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/motor_friction.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -36,11 +37,6 @@ std::pair<double, double> likeliest(const ForwardModel& forward, const Candidate
 }
 
 }  // namespace
-
-double motor_presliding_m(const plant::AxisParameters& axis) {
-  const auto effect = std::ranges::find(axis.effects, id, &plant::EffectSetting::id);
-  return effect == axis.effects.end() ? 0.0 : effect->values.front();
-}
 
 std::optional<Ruling> ask_how_motor_sets_in(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                                             std::optional<Ruling> settled,

@@ -19,7 +19,4 @@ std::optional<Ruling> ask_how_motor_sets_in(const ForwardModel& forward, const F
                                             std::optional<Ruling> settled,
                                             const std::function<void(std::string_view)>& progress);
 
-/// The path, in m, as a model has it; 0: at once.
-[[nodiscard]] double motor_presliding_m(const plant::AxisParameters& axis);
-
 }  // namespace feedtwin::tools::diagnosis
