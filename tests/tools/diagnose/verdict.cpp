@@ -34,10 +34,17 @@ Weighed weighed(double spring_N_per_m) {
 
 TEST(BeyondTheCatalogue, ALittleStructureIsUnknownWhereNothingIsNamed) {
   const auto little = weighed(50.0);
-  ASSERT_GT(little.structure.structured_N(), 0.08);
+  ASSERT_GT(little.structure.structured_N(), 0.2);
   ASSERT_LT(little.structure.structured_N(), 0.3);
   EXPECT_TRUE(little.with_nothing_named);
   EXPECT_FALSE(little.with_a_name);
+}
+
+TEST(BeyondTheCatalogue, ATraceOfStructureIsNot) {
+  const auto trace = weighed(30.0);
+  ASSERT_GT(trace.structure.structured_N(), 0.09);
+  ASSERT_GT(trace.structure.share, 0.1);
+  EXPECT_FALSE(trace.with_nothing_named);
 }
 
 TEST(BeyondTheCatalogue, MuchStructureIsUnknownBesideANameToo) {
