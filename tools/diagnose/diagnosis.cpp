@@ -20,6 +20,7 @@
 #include "tools/diagnose/forward/stiffness.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
+#include "tools/diagnose/lead_by_torque.h"
 #include "tools/diagnose/motor_friction.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/reported.h"
@@ -47,13 +48,15 @@ double shown_jump_share(const Case& data, const std::function<void(std::string_v
 /// A diagnosis on its way: both engines, what is found, what is told.
 class Diagnosing {
  public:
-  Diagnosing(const Case& given, const std::function<void(std::string_view)>& progress)
+  /// @param known faults that the case no longer has
+  Diagnosing(const Case& given, const std::function<void(std::string_view)>& progress, std::vector<SetupFault> known = {})
       : progress_(progress),
         data_(mended(given, result_, progress)),
         jump_share_(shown_jump_share(data_, progress)),
         model_(make_tracks(data_.fit, data_.axis, jump_share_), data_.axis),
         fitter_(model_, data_.axis),
         forward_(data_.fit, data_) {
+    for (auto& fault : known) result_.setup.push_back(std::move(fault));
     for (auto& fault : check_meter(model_.tracks().front(), data_.axis)) result_.setup.push_back(std::move(fault));
   }
 
@@ -195,6 +198,8 @@ class Diagnosing {
     if (result_.effects.empty())
       found_.recalibrated.model = polished_if_closer(forward_, fitter_, found_.recalibrated.model);
     result_.updated = with_table(forward_, fitter_, told_, learned);
+    if (unknown_)
+      tell_what_rings(fitter_.structure().remaining(model_.residual(told_.axis, told_.effects)), *result_.unknown);
   }
 
   /// Figures, pictures and energies on what the fit did not see.
@@ -250,7 +255,13 @@ class Diagnosing {
 }  // namespace
 
 Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)>& progress) {
-  return Diagnosing(given, progress).run();
+  Diagnosis told = Diagnosing(given, progress).run();
+  const auto lead = lead_by_torque(told);
+  if (!lead) return told;
+  progress(lead->sentence);
+  Case anew = given;
+  anew.axis.axis.lead_m *= lead->parameters.front().value;
+  return Diagnosing(anew, progress, {*lead}).run();
 }
 
 }  // namespace feedtwin::tools::diagnosis

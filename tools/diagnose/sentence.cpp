@@ -61,6 +61,14 @@ std::string outcome_of(const Diagnosis& diagnosis) {
   if (verdict == "recalibrate" && diagnosis.effects.empty())
     return fmt::format("{} numbers of the model are off; no physics is missing beyond {:.2g} N rms.",
                        diagnosis.recalibrated.size(), diagnosis.detection_limit_N);
+  if (verdict == "unknown" && diagnosis.unknown->axis == Where::frequency)
+    return fmt::format(
+        "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a part that swings on a "
+        "light "
+        "damper at {:.3g} to {:.3g} Hz, set off by the axis' acceleration, explains {:.0f} % on stretches that it was not "
+        "fitted to. The updated axis does not hold it.",
+        diagnosis.unknown->remainder_N, diagnosis.unknown->low, diagnosis.unknown->high,
+        100.0 * diagnosis.unknown->share_unseen);
   if (verdict == "unknown")
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a table over {} explains "

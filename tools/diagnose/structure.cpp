@@ -18,6 +18,7 @@ struct Moment {
   double position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, time_s;
   std::vector<double> past;  ///< accelerations before
   std::size_t run, fold;
+  Index sample;
 };
 
 constexpr int past_steps = 24;
@@ -43,7 +44,8 @@ void add_moments(const InverseModel& model, const Segment& segment, std::vector<
              t,
              {},
              segment.run,
-             (static_cast<std::size_t>(t / stretch_s) + segment.run) % folds};
+             (static_cast<std::size_t>(t / stretch_s) + segment.run) % folds,
+             k};
     for (int j = 0; j < past_steps; ++j) m.past.push_back(acceleration(std::max<Index>(0, k - j * step)));
     all.push_back(std::move(m));
     rows.push_back(i);
@@ -126,6 +128,9 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   std::vector<BeatMoment> beats;
   for (const auto& m : all) beats.push_back({m.time_s, m.velocity_m_per_s > 0.0, m.run, m.fold});
   beat_.emplace(beats, folds);
+  std::vector<RingingMoment> swings;
+  for (const auto& m : all) swings.push_back({m.run, m.fold, m.sample});
+  ringing_.emplace(model.tracks(), swings, folds);
   std::vector<double> accelerations, velocities;
   for (const auto& m : all) accelerations.push_back(m.acceleration_m_per_s2), velocities.push_back(m.velocity_m_per_s);
   numbers_ = columns_of_numbers(accelerations, velocities);
@@ -214,7 +219,14 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
   for (std::size_t e = 0; e < model_.equations().size(); ++e)
     if (of_force(model_.equations()[e])) y += gathered(residual, e);
   y -= numbers_ * least_squares(numbers_, y);
-  const double before = y.squaredNorm(), after = (y - unseen(y)).squaredNorm();
+  const double before = y.squaredNorm();
+  double after = (y - unseen(y)).squaredNorm();
+  const Vector rings = ringing_->unseen(y), rest = y - rings;
+  const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest)).squaredNorm();
+  if (rung > 0.0 && std::min(beside, before - rung) < after) {
+    after = std::min(beside, before - rung);
+    if (rung > 0.5 * (before - after)) found.rings = ringing_->mode(y);
+  }
   found.remainder_N = std::sqrt(before / static_cast<double>(y.size()));
   found.share = before > 0.0 ? 1.0 - after / before : 0.0;
   return found;

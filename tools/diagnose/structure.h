@@ -1,7 +1,7 @@
 #pragma once
 // Is what a model leaves over still structure? A general additive model of the force remainder - tables over place, speed,
-// time since reversal and acceleration, speed-weighted place, the acceleration's past - and friction that beats, learned on
-// three quarters of the seconds and judged on the fourth, in turn.
+// time since reversal and acceleration, speed-weighted place, the acceleration's past - friction that beats and a part that
+// rings, learned on three quarters of the seconds and judged on the fourth, in turn.
 
 #include <Eigen/Cholesky>
 #include <optional>
@@ -9,12 +9,14 @@
 
 #include "tools/diagnose/beat.h"
 #include "tools/diagnose/inverse_model.h"
+#include "tools/diagnose/ringing.h"
 
 namespace feedtwin::tools::diagnosis {
 
 struct Structure {
-  double remainder_N = 0.0;  ///< rms of the remainder where the axis has settled, less what the numbers could still take up
-  double share = 0.0;        ///< of its square that the additive model predicts on seconds it has not seen; may be negative
+  double remainder_N = 0.0;   ///< rms of the remainder where the axis has settled, less what the numbers could still take up
+  double share = 0.0;         ///< of its square that the additive model predicts on seconds it has not seen; may be negative
+  std::optional<Mode> rings;  ///< where a part that rings is most of it
   [[nodiscard]] double structured_N() const;
 };
 
@@ -46,6 +48,7 @@ class RepeatableStructure {
   };
   std::vector<Way> ways_;
   std::optional<Beat> beat_;
+  std::optional<Ringing> ringing_;
 };
 
 }  // namespace feedtwin::tools::diagnosis

@@ -25,6 +25,16 @@ bool repeats(const Learned& learned) {
   return learned.share_unseen > smallest_share_unseen && learned.remainder_N > smallest_remainder_N;
 }
 
+void tell_what_rings(const Structure& left, Learned& told) {
+  if (!left.rings || left.share < told.share_unseen) return;
+  const auto& [frequency_Hz, damping_ratio] = *left.rings;
+  told.axis = Where::frequency;
+  told.low = frequency_Hz * (1.0 - damping_ratio);  // half the power
+  told.high = frequency_Hz * (1.0 + damping_ratio);
+  told.share_unseen = left.share;
+  told.remainder_N = left.remainder_N;
+}
+
 plant::AxisParameters with_table(const ForwardModel& forward, const Fitter& fitter, const Candidate& told,
                                  const Learned& learned) {
   const Candidate plain = polished_if_closer(forward, fitter, told);

@@ -3,6 +3,7 @@
 
 #include "tools/diagnose/diagnosis.h"
 #include "tools/diagnose/forward/forward_model.h"
+#include "tools/diagnose/structure.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -12,6 +13,9 @@ namespace feedtwin::tools::diagnosis {
 
 /// Is it more than a table of use: a finding of its own?
 [[nodiscard]] bool repeats(const Learned& learned);
+
+/// Where a part that rings is most of it, it acts at that part's frequency; no table holds that.
+void tell_what_rings(const Structure& left, Learned& told);
 
 /// The model as the closed loop has its numbers, with the table where that brings the runs of the fit closer; without one
 /// that is of no use.

@@ -76,6 +76,42 @@ TEST_F(Runs, ABeatIsFoundBelowTheNoiseWithItsPhaseInEachRun) {
   EXPECT_GT(structure.remaining(noise() + beat).share, 0.25);
 }
 
+TEST_F(Runs, APartThatRingsIsFoundByItsFrequencyWhereTheMotionSetsItOff) {
+  const RepeatableStructure structure(model);
+  constexpr double mass_kg = 8.0, frequency_Hz = 6.2, damping_ratio = 0.02, w = 2.0 * std::numbers::pi * frequency_Hz;
+  std::vector<std::vector<double>> force_N;  // m (w^2 z + 2 d w z') of z'' + 2 d w z' + w^2 z = -a, in tenths of a sample
+  for (const auto& t : model.tracks()) {
+    double z = 0.0, speed = 0.0;
+    force_N.emplace_back();
+    for (Index k = 0; k < t.size; ++k) {
+      force_N.back().push_back(mass_kg * w * (w * z + 2.0 * damping_ratio * speed));
+      for (int i = 0; i < 10; ++i) {
+        speed += 0.1 * t.sample_s * (-t.table_acceleration_m_per_s2[k] - w * (w * z + 2.0 * damping_ratio * speed));
+        z += 0.1 * t.sample_s * speed;
+      }
+    }
+  }
+  const Vector rings = rows_of([&](const Track& t, Index k) { return force_N[t.run][static_cast<std::size_t>(k)]; });
+  const double loud = 2.0 * std::sqrt(static_cast<double>(rings.size())) / rings.norm();  // twice the noise
+  const auto found = structure.remaining(noise() + loud * rings);
+  EXPECT_GT(found.share, 0.5);
+  ASSERT_TRUE(found.rings.has_value());
+  EXPECT_NEAR(found.rings->frequency_Hz, frequency_Hz, 0.03 * frequency_Hz);
+}
+
+TEST_F(Runs, NoiseThatRingsByItselfIsNoStructure) {
+  const RepeatableStructure structure(model);
+  const Vector hiss = noise();
+  double last = 0.0, before = 0.0;  // a pole at 6 Hz, 2 % damped, rows of 4 ms
+  const double turn = 2.0 * std::numbers::pi * 6.0 * 0.004, kept = std::exp(-0.02 * turn);
+  Vector coloured = hiss;
+  for (double& value : coloured) {
+    value += 2.0 * kept * std::cos(turn) * last - kept * kept * before;
+    before = last, last = value;
+  }
+  EXPECT_LT(structure.remaining(coloured).share, 0.05);
+}
+
 TEST_F(Runs, WhatMassAndFrictionCouldTakeUpIsNoStructure) {
   const RepeatableStructure structure(model);
   const Vector mass_and_friction = rows_of([](const Track& t, Index k) {
