@@ -12,7 +12,6 @@ constexpr double lowest_Hz = 1.5, finer = 1.02;
 constexpr Index frequencies = 160;            // to 35 Hz
 constexpr double dampings[] = {0.015, 0.05};  // more of it, and the recent past holds all
 constexpr Index modes = frequencies * std::size(dampings);
-constexpr double said_zero = 10.0;  // as if ten more rows had said zero
 
 Mode mode_at(Index i) {
   return {lowest_Hz * std::pow(finer, static_cast<double>(i % frequencies)),
@@ -32,28 +31,13 @@ std::vector<std::complex<double>> swung(const Track& track, const Mode& mode) {
   return all;
 }
 
-}  // namespace
+Index best_of(const PairSums& sums) {
+  Index best = 0;
+  sums.gain().maxCoeff(&best);
+  return best;
+}
 
-/// Over the rows of a fold, an entry a mode.
-struct Ringing::Sums {
-  Eigen::ArrayXd ss, sc, cc, sy, cy;
-  Sums() {
-    for (auto* part : {&ss, &sc, &cc, &sy, &cy}) part->setZero(modes);
-  }
-  void add(const Sums& other) { ss += other.ss, sc += other.sc, cc += other.cc, sy += other.sy, cy += other.cy; }
-  /// The mode that lets the squares fall most.
-  [[nodiscard]] Index best() const {
-    const Eigen::ArrayXd s = ss + said_zero, c = cc + said_zero;
-    Index at = 0;
-    ((c * sy * sy - 2.0 * sc * sy * cy + s * cy * cy) / (s * c - sc * sc)).maxCoeff(&at);
-    return at;
-  }
-  /// Its two amplitudes.
-  [[nodiscard]] std::pair<double, double> at(Index i) const {
-    const double s = ss[i] + said_zero, c = cc[i] + said_zero, determinant = s * c - sc[i] * sc[i];
-    return {(c * sy[i] - sc[i] * cy[i]) / determinant, (s * cy[i] - sc[i] * sy[i]) / determinant};
-  }
-};
+}  // namespace
 
 Ringing::Ringing(const std::vector<Track>& tracks, std::span<const RingingMoment> moments, std::size_t folds)
     : folds_(folds), swing_(modes, static_cast<Index>(moments.size())), speed_(swing_) {
@@ -74,13 +58,11 @@ Ringing::Ringing(const std::vector<Track>& tracks, std::span<const RingingMoment
   }
 }
 
-std::vector<Ringing::Sums> Ringing::sums_by_fold(const Vector& y) const {
-  std::vector<Sums> own(folds_);
+std::vector<PairSums> Ringing::sums_by_fold(const Vector& y) const {
+  std::vector<PairSums> own(folds_, PairSums(modes));
   for (std::size_t k = 0; k < fold_.size(); ++k) {
     const auto column = static_cast<Index>(k);
-    auto& sums = own[fold_[k]];
-    const auto s = swing_.col(column).array(), c = speed_.col(column).array();
-    sums.ss += s * s, sums.sc += s * c, sums.cc += c * c, sums.sy += y[column] * s, sums.cy += y[column] * c;
+    own[fold_[k]].add_row(swing_.col(column), speed_.col(column), y[column]);
   }
   return own;
 }
@@ -89,10 +71,10 @@ Vector Ringing::unseen(const Vector& y) const {
   const auto own = sums_by_fold(y);
   Vector predicted = Vector::Zero(y.size());
   for (std::size_t f = 0; f < folds_; ++f) {
-    Sums others;
+    PairSums others(modes);
     for (std::size_t g = 0; g < folds_; ++g)
       if (g != f) others.add(own[g]);
-    const Index best = others.best();
+    const Index best = best_of(others);
     const auto [swing, speed] = others.at(best);
     for (std::size_t k = 0; k < fold_.size(); ++k) {
       const auto column = static_cast<Index>(k);
@@ -103,9 +85,9 @@ Vector Ringing::unseen(const Vector& y) const {
 }
 
 Mode Ringing::mode(const Vector& y) const {
-  Sums all;
+  PairSums all(modes);
   for (const auto& own : sums_by_fold(y)) all.add(own);
-  return mode_at(all.best());
+  return mode_at(best_of(all));
 }
 
 }  // namespace feedtwin::tools::diagnosis

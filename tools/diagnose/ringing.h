@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/diagnose/pair_sums.h"
 #include "tools/diagnose/track.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -35,8 +36,7 @@ class Ringing {
   [[nodiscard]] Mode mode(const Vector& y) const;
 
  private:
-  struct Sums;
-  [[nodiscard]] std::vector<Sums> sums_by_fold(const Vector& y) const;
+  [[nodiscard]] std::vector<PairSums> sums_by_fold(const Vector& y) const;
 
   std::vector<std::size_t> fold_;
   std::size_t folds_;
