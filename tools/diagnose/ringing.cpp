@@ -18,7 +18,8 @@ Mode mode_at(Index i) {
           dampings[static_cast<std::size_t>(i / frequencies)]};
 }
 
-/// z and w z' / w at every sample of a run: the mode's own motion is turned exactly, the acceleration held over a sample.
+/// z (imaginary) and z' (real), each to a factor and some of the other, at every sample of a run: the mode's own motion is
+/// turned exactly, the acceleration held over a sample.
 std::vector<std::complex<double>> swung(const Track& track, const Mode& mode) {
   const double w = 2.0 * std::numbers::pi * mode.frequency_Hz, d = mode.damping_ratio, h = track.sample_s;
   const std::complex<double> pole(-d * w, w * std::sqrt(1.0 - d * d)), turn = std::exp(pole * h), push = (turn - 1.0) / pole;
