@@ -22,6 +22,7 @@
 #include "plant/effects/hidden_friction_compensation.h"
 #include "plant/effects/input_delay.h"
 #include "plant/effects/lead_error.h"
+#include "plant/effects/learned_mode.h"
 #include "plant/effects/learned_residual.h"
 #include "plant/effects/load_dependent_friction.h"
 #include "plant/effects/local_friction.h"
@@ -83,6 +84,7 @@ constexpr std::array table{
     gravity,
     cable_spring,
     quadratic_drag,
+    learned_mode,
     floor_vibration,
     process_force,
     hard_stop,

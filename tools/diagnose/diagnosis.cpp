@@ -18,6 +18,7 @@
 #include "tools/diagnose/forward/setting_in.h"
 #include "tools/diagnose/forward/sizes.h"
 #include "tools/diagnose/forward/stiffness.h"
+#include "tools/diagnose/forward/with_mode.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/lead_by_torque.h"
@@ -197,9 +198,10 @@ class Diagnosing {
     result_.unknown = learned;
     if (result_.effects.empty())
       found_.recalibrated.model = polished_if_closer(forward_, fitter_, found_.recalibrated.model);
-    result_.updated = with_table(forward_, fitter_, told_, learned);
     if (unknown_)
       tell_what_rings(fitter_.structure().remaining(model_.residual(told_.axis, told_.effects)), *result_.unknown);
+    result_.updated = result_.unknown->mode ? with_mode(forward_, fitter_, told_, *result_.unknown)
+                                            : with_table(forward_, fitter_, told_, learned);
   }
 
   /// Figures, pictures and energies on what the fit did not see.

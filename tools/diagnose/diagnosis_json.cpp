@@ -77,6 +77,10 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
                       {"interval", {diagnosis.unknown->low, diagnosis.unknown->high}},
                       {"remainder_N", diagnosis.unknown->remainder_N},
                       {"share_unseen", diagnosis.unknown->share_unseen}};
+  if (diagnosis.unknown && diagnosis.unknown->mode)
+    out["unknown"]["mode"] = {{"mass_kg", diagnosis.unknown->mode->mass_kg},
+                              {"frequency_Hz", diagnosis.unknown->mode->frequency_Hz},
+                              {"damping_ratio", diagnosis.unknown->mode->damping_ratio}};
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));
     if (effect.alternatives.empty()) continue;

@@ -3,9 +3,11 @@
 // learned on some of the runs to learn from and judged on the others in turn, so that a disturbance that never comes back
 // teaches nothing, and the held-out runs have no say.
 
+#include <optional>
 #include <vector>
 
 #include "tools/diagnose/fit.h"
+#include "tools/diagnose/ringing.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -16,6 +18,7 @@ struct Learned {
   double share_unseen = 0.0;                                       ///< of the remainder on runs that it was not learned from
   double remainder_N = 0.0;                                        ///< RMS of the remainder there
   double low = 0.0, high = 0.0;                                    ///< where most of it acts
+  std::optional<Mode> mode;                                        ///< a part that rings, in place of the table
 };
 
 /// The axis that explains most of runs that it was not learned from; of a single run, of every other second.

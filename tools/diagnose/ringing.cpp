@@ -8,13 +8,13 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double lowest_Hz = 1.5, finer = 1.02;
+constexpr double lowest_mode_Hz = 1.5, finer = 1.02;
 constexpr Index frequencies = 160;            // to 35 Hz
 constexpr double dampings[] = {0.015, 0.05};  // more of it, and the recent past holds all
 constexpr Index modes = frequencies * std::size(dampings);
 
 Mode mode_at(Index i) {
-  return {lowest_Hz * std::pow(finer, static_cast<double>(i % frequencies)),
+  return {lowest_mode_Hz * std::pow(finer, static_cast<double>(i % frequencies)),
           dampings[static_cast<std::size_t>(i / frequencies)]};
 }
 
@@ -56,6 +56,7 @@ Ringing::Ringing(const std::vector<Track>& tracks, std::span<const RingingMoment
                         1e-30;
     swing_.row(i) /= size;
     speed_.row(i) /= size;
+    size_.push_back(size);
   }
 }
 
@@ -88,7 +89,10 @@ Vector Ringing::unseen(const Vector& y) const {
 Mode Ringing::mode(const Vector& y) const {
   PairSums all(modes);
   for (const auto& own : sums_by_fold(y)) all.add(own);
-  return mode_at(best_of(all));
+  const Index best = best_of(all);
+  Mode mode = mode_at(best);
+  mode.mass_kg = -all.at(best).first / (size_[static_cast<std::size_t>(best)] * 2.0 * std::numbers::pi * mode.frequency_Hz);
+  return mode;
 }
 
 }  // namespace feedtwin::tools::diagnosis

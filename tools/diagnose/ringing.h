@@ -21,8 +21,9 @@ struct RingingMoment {
   Index sample = 0;
 };
 
+/// A part of mass_kg that hangs on the table so: A = -mass w^2, B = -2 mass d w, as a load. Less than none: no such part.
 struct Mode {
-  double frequency_Hz = 0.0, damping_ratio = 0.0;
+  double frequency_Hz = 0.0, damping_ratio = 0.0, mass_kg = 0.0;
 };
 
 class Ringing {
@@ -32,7 +33,7 @@ class Ringing {
 
   /// What the mode that explains most of the other folds predicts of each.
   [[nodiscard]] Vector unseen(const Vector& y) const;
-  /// The one that explains most of all.
+  /// The one that explains most of all of a load.
   [[nodiscard]] Mode mode(const Vector& y) const;
 
  private:
@@ -41,6 +42,7 @@ class Ringing {
   std::vector<std::size_t> fold_;
   std::size_t folds_;
   Eigen::MatrixXd swing_, speed_;  ///< a row a mode, a column a moment: z and z', of unit size each
+  std::vector<double> size_;       ///< that they had
 };
 
 }  // namespace feedtwin::tools::diagnosis

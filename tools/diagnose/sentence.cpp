@@ -53,6 +53,12 @@ std::string next_move_of(const NextExperiment& next) {
 
 namespace {
 
+std::string how_it_runs(const std::optional<Mode>& mode) {
+  if (!mode) return "The updated axis does not hold it: in closed loop it comes no closer.";
+  return fmt::format("The updated axis holds it (learned_mode): {:.3g} kg at {:.4g} Hz, damping ratio {:.2g}.",
+                     mode->mass_kg, mode->frequency_Hz, mode->damping_ratio);
+}
+
 std::string outcome_of(const Diagnosis& diagnosis) {
   const auto& verdict = diagnosis.verdict;
   if (verdict == "agrees")
@@ -66,9 +72,9 @@ std::string outcome_of(const Diagnosis& diagnosis) {
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a part that swings on a "
         "light "
         "damper at {:.3g} to {:.3g} Hz, set off by the axis' acceleration, explains {:.0f} % on stretches that it was not "
-        "fitted to. The updated axis does not hold it.",
+        "fitted to. {}",
         diagnosis.unknown->remainder_N, diagnosis.unknown->low, diagnosis.unknown->high,
-        100.0 * diagnosis.unknown->share_unseen);
+        100.0 * diagnosis.unknown->share_unseen, how_it_runs(diagnosis.unknown->mode));
   if (verdict == "unknown")
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a table over {} explains "

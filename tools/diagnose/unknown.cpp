@@ -27,7 +27,8 @@ bool repeats(const Learned& learned) {
 
 void tell_what_rings(const Structure& left, Learned& told) {
   if (!left.rings || left.share < told.share_unseen) return;
-  const auto& [frequency_Hz, damping_ratio] = *left.rings;
+  const auto& [frequency_Hz, damping_ratio, mass_kg] = *left.rings;
+  told.mode = left.rings;
   told.axis = Where::frequency;
   told.low = frequency_Hz * (1.0 - damping_ratio);  // half the power
   told.high = frequency_Hz * (1.0 + damping_ratio);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -34,6 +35,11 @@ struct Runs : testing::Test {
       for (Index i = 0; i < s.size && !model.equations()[s.equation].slip && !model.equations()[s.equation].power; ++i)
         rows[s.start + i] = value(model.tracks()[s.run], model.sample_of(s, i));
     return rows;
+  }
+  /// How many equations of the force there are: their sum holds such rows so many times.
+  [[nodiscard]] double force_equations() const {
+    return static_cast<double>(
+        std::ranges::count_if(model.equations(), [](const Equation& e) { return !e.slip && !e.power; }));
   }
   [[nodiscard]] Vector noise() {
     std::normal_distribution<double> normal;
@@ -79,12 +85,12 @@ TEST_F(Runs, ABeatIsFoundBelowTheNoiseWithItsPhaseInEachRun) {
 TEST_F(Runs, APartThatRingsIsFoundByItsFrequencyWhereTheMotionSetsItOff) {
   const RepeatableStructure structure(model);
   constexpr double mass_kg = 8.0, frequency_Hz = 6.2, damping_ratio = 0.02, w = 2.0 * std::numbers::pi * frequency_Hz;
-  std::vector<std::vector<double>> force_N;  // m (w^2 z + 2 d w z') of z'' + 2 d w z' + w^2 z = -a, in tenths of a sample
+  std::vector<std::vector<double>> force_N;  // -m (w^2 z + 2 d w z') of z'' + 2 d w z' + w^2 z = -a, in tenths of a sample
   for (const auto& t : model.tracks()) {
     double z = 0.0, speed = 0.0;
     force_N.emplace_back();
     for (Index k = 0; k < t.size; ++k) {
-      force_N.back().push_back(mass_kg * w * (w * z + 2.0 * damping_ratio * speed));
+      force_N.back().push_back(-mass_kg * w * (w * z + 2.0 * damping_ratio * speed));
       for (int i = 0; i < 10; ++i) {
         speed += 0.1 * t.sample_s * (-t.table_acceleration_m_per_s2[k] - w * (w * z + 2.0 * damping_ratio * speed));
         z += 0.1 * t.sample_s * speed;
@@ -97,6 +103,7 @@ TEST_F(Runs, APartThatRingsIsFoundByItsFrequencyWhereTheMotionSetsItOff) {
   EXPECT_GT(found.share, 0.5);
   ASSERT_TRUE(found.rings.has_value());
   EXPECT_NEAR(found.rings->frequency_Hz, frequency_Hz, 0.03 * frequency_Hz);
+  EXPECT_NEAR(found.rings->mass_kg / (loud * force_equations()), mass_kg, 0.3 * mass_kg);
 }
 
 TEST_F(Runs, NoiseThatRingsByItselfIsNoStructure) {

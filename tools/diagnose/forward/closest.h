@@ -5,6 +5,9 @@
 
 namespace feedtwin::tools::diagnosis {
 
+/// Mean logarithm of the closed loop's error on the runs, all channels alike.
+[[nodiscard]] double far_off(const ForwardModel& forward, const AxisByRun& axis);
+
 /// Which axis's closed loop comes closest to the runs, all channels alike; the first where none is clearly closer.
 [[nodiscard]] std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& axes);
 
