@@ -24,6 +24,7 @@
 #include "tools/diagnose/lead_by_torque.h"
 #include "tools/diagnose/motor_friction.h"
 #include "tools/diagnose/own_phase.h"
+#include "tools/diagnose/payload_in_mass.h"
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/screen.h"
 #include "tools/diagnose/sentence.h"
@@ -176,6 +177,8 @@ class Diagnosing {
     tell_as_one_lead(result_);
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
       result_.effects.push_back(std::move(*difference));
+    if (auto payload = unknown_ ? std::nullopt : payload_in_mass(fitter_, fit_, covariance_))
+      result_.effects.push_back(std::move(*payload));
     result_.recalibrated = recalibrated(fitter_, fit_, covariance_);
     if (motor_presliding_m(data_.axis) == 0.0) result_.motor_presliding_m = motor_presliding_m(fit_.model.axis);
     auto ways = ways_of(fit_.model);

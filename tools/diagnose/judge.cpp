@@ -128,6 +128,23 @@ std::vector<double> gains_by_fold(const InverseModel& model, const Fit& with, co
   return gains;
 }
 
+Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
+                 const Verdict& verdict, const Bar& bar) {
+  const auto gains = gains_by_fold(model, with, without, bar.folds);
+  // one fold may hold all that a shape parameter is known from: it must not outvote the others
+  const double most_lost = -verdict.gain / static_cast<double>(bar.folds);
+  Unseen told;
+  for (const double g : gains) told.gain += std::max(g, most_lost);
+  told.folds = static_cast<std::size_t>(std::ranges::count_if(gains, [](double g) { return g > 1.0; }));
+  told.everywhere = told.folds == bar.folds && told.gain > 0.8 * verdict.gain;
+  const bool has_shape = std::ranges::any_of(hypothesis.parameters, [](const auto& p) { return p.kind == Kind::shape; });
+  const bool of_a_moment = told.gain <= 0.0 && !has_shape;  // an amplitude that the others do not foretell where it matters
+  const bool nearly_all = 4 * told.folds >= 3 * bar.folds && !of_a_moment;
+  told.holds = verdict.surprise > 0.5 * verdict.gain || nearly_all ||
+               (told.gain > 0.4 * verdict.gain && told.folds >= bar.folds_that_gain);
+  return told;
+}
+
 Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit) {
   constexpr std::size_t groups = 16;
   constexpr double widest = 8.0;  // beyond it the line that the jackknife draws is what is wrong

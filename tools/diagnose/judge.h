@@ -34,6 +34,16 @@ struct Verdict {
 [[nodiscard]] std::vector<double> gains_by_fold(const InverseModel& model, const Fit& with, const Fit& without,
                                                 std::size_t folds);
 
+/// What an effect is worth on stretches that it was not fitted to, and whether that is enough.
+struct Unseen {
+  double gain = 0.0;
+  std::size_t folds = 0;  ///< that gain
+  bool everywhere = false, holds = false;
+};
+
+[[nodiscard]] Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
+                               const Verdict& verdict, const Bar& bar);
+
 /// Covariance of the unknowns, widened to what a delete-a-group jackknife over seconds finds: the laws are not exact and
 /// the noise is not of one colour, so that rows say less than they seem to.
 [[nodiscard]] Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit);

@@ -59,17 +59,18 @@ std::vector<Jump> as_large(const std::vector<Jump>& jumps, double counts) {
   return kept;
 }
 
+/// Without its sign.
 double size_of(const std::vector<Jump>& jumps) {
   if (jumps.empty()) return 0.0;
   const auto largest = std::ranges::max_element(jumps, {}, [](const Jump& one) { return std::abs(one.counts); });
   std::vector<double> sizes;
-  for (const Jump& one : as_large(jumps, largest->counts)) sizes.push_back(one.counts);
+  for (const Jump& one : as_large(jumps, largest->counts)) sizes.push_back(std::abs(one.counts));
   return std::round(median_of(std::move(sizes)));
 }
 
 bool alike(const Jump& one, double counts) {
   constexpr double share = 0.2;
-  return std::abs(one.counts - counts) <= share * std::abs(counts);
+  return std::abs(std::abs(one.counts) - counts) <= share * counts;
 }
 
 /// Of one size, and not where the shaft passes one mark.
@@ -93,7 +94,8 @@ void give_back(Recording& run, const plant::AxisParameters& axis, double counts)
   for (const auto name : {channel::position_m, channel::reference_m})
     if (const auto found = run.channels.find(name); found != run.channels.end())
       for (const Jump& jump : jumps)
-        for (std::size_t k = jump.row; alike(jump, counts) && k < found->second.size(); ++k) found->second[k] += lost_m;
+        for (std::size_t k = jump.row; alike(jump, counts) && k < found->second.size(); ++k)
+          found->second[k] += std::copysign(lost_m, jump.counts);
 }
 
 }  // namespace
@@ -110,7 +112,12 @@ std::optional<LostCounts> give_back_lost_counts(Case& data) {
   if (!of_its_own(lost, counts)) return std::nullopt;
   for (auto* runs : {&data.fit, &data.holdout})
     for (auto& run : *runs) give_back(run, data.axis, counts);
-  return LostCounts{counts, static_cast<double>(lost.size()) / time_s, static_cast<int>(lost.size())};
+  const auto gained = std::ranges::count_if(lost, [](const Jump& one) { return one.counts < 0.0; });
+  double squares = 0.0;
+  for (const Jump& one : lost) squares += std::pow(std::abs(one.counts) - counts, 2);
+  const double deviation = std::sqrt(squares) / static_cast<double>(lost.size());
+  return LostCounts{counts, deviation, static_cast<double>(lost.size()) / time_s, static_cast<int>(lost.size()),
+                    static_cast<int>(gained)};
 }
 
 }  // namespace feedtwin::tools::diagnosis

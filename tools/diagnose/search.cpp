@@ -257,21 +257,13 @@ class Search {
       const Active& effect = fit_.model.effects[i];
       const auto& verdict = verdicts[i];
       const double largest = largest_beside(i, less);
-      const auto gains = gains_by_fold(fitter_.model(), fit_, less[i], bar_.folds);
-      // one fold may hold all that a shape parameter is known from: it must not outvote the others
-      const double most_lost = -verdict.gain / static_cast<double>(bar_.folds);
-      double on_unseen = 0.0;
-      for (const double g : gains) on_unseen += std::max(g, most_lost);
-      const auto folds = static_cast<std::size_t>(std::ranges::count_if(gains, [](double g) { return g > 1.0; }));
+      const Unseen unseen = on_unseen(fitter_.model(), fit_, less[i], *effect.hypothesis, verdict, bar_);
       progress_(fmt::format("{}: gain {:.0f}, on unseen folds {:.0f} in {} of {}, surprise {:.0f}, strength {:.2f}",
-                            effect.hypothesis->id, verdict.gain, on_unseen, folds, bar_.folds, verdict.surprise,
+                            effect.hypothesis->id, verdict.gain, unseen.gain, unseen.folds, bar_.folds, verdict.surprise,
                             verdict.strength));
-      everywhere[i] = folds == bar_.folds && on_unseen > 0.8 * verdict.gain;
-      const bool by_surprise = verdict.surprise > 0.5 * verdict.gain;
-      const bool nearly_all = 4 * folds >= 3 * bar_.folds;
-      const bool holds = by_surprise || nearly_all || (on_unseen > 0.4 * verdict.gain && folds >= bar_.folds_that_gain);
+      everywhere[i] = unseen.everywhere;
       const bool hidden = !verdict.far_off && verdict.strength < bar_.beside * largest;
-      if (!holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
+      if (!unseen.holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
         drop(i, less[i].model, verdict);
         return false;
       }

@@ -77,8 +77,12 @@ SetupFault given_back(const LostCounts& lost) {
           "sensors",
           std::string(channel::position_m),
           fmt::format("the encoder {} {:.0f} counts within a sample, {} times, wherever its shaft was: they are given back.",
-                      lost.counts > 0.0 ? "loses" : "gains", std::abs(lost.counts), lost.moments),
-          {{"counts_per_event", lost.counts, 0.5},
+                      lost.gained == 0             ? "loses"
+                      : lost.gained < lost.moments ? "loses or gains"
+                                                   : "gains",
+                      lost.counts, lost.moments),
+          {{"counts_per_event", lost.gained < lost.moments ? lost.counts : -lost.counts,
+            std::max(0.5, normal_90 * lost.deviation)},
            {"events_per_s", lost.per_s, normal_90 * lost.per_s / std::sqrt(lost.moments)}}};
 }
 

@@ -121,6 +121,18 @@ TEST(SetupChecks, CountsLostAtMomentsOfTheirOwnAreGivenBack) {
     }
 }
 
+TEST(SetupChecks, CountsLostOnceAndGainedAnotherTimeAreGivenBackEach) {
+  Case data = recorded_with(plant::source_axis());
+  const auto right = data.fit[0].channels.at("position_m");
+  lose(data.fit[0], 40.0, {0.31, 1.47, 3.05});
+  lose(data.fit[0], -40.0, {0.9, 2.61});
+  const auto faults = mend_setup(data);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_DOUBLE_EQ(faults[0].parameters[0].value, 40.0);
+  EXPECT_NE(faults[0].sentence.find("loses or gains 40 counts"), std::string::npos) << faults[0].sentence;
+  for (std::size_t k = 0; k < right.size(); ++k) ASSERT_NEAR(data.fit[0].channels.at("position_m")[k], right[k], 1e-9) << k;
+}
+
 TEST(SetupChecks, LossesAtAMarkOrOfManySizesAreNoneOfTheirOwn) {
   auto axis = plant::source_axis();
   axis.effects.push_back(tests::effect("count_loss", {{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}));
