@@ -1,9 +1,11 @@
 #pragma once
 // Friction of the ball screw that grows with the force through the nut.
 //
-//   F_C and F_S of the ball screw times 1 + c |F_nut| / F_C,   F_nut = M_L a + F_table
+//   F_C and F_S of the ball screw times 1 + c |F_nut| / F_C,   F_nut = M_L a + F_table + g F_L(v)
 //
-// c = friction_per_load, F_table all that acts on the table but the guide's own friction: cutting, gravity, springs.
+// c = friction_per_load, F_table all that acts on the table but the guide's own friction: cutting, gravity, springs. The
+// guide's friction F_L, as it is while sliding, goes through the nut too: g = guide_friction_share of it, 1 in a machine
+// whose axis file says how much of the friction is the guide's; 0 where c is a figure for what comes from outside.
 
 #include <array>
 #include <cmath>
@@ -16,23 +18,36 @@ class LoadDependentFriction final : public Effect {
  public:
   LoadDependentFriction(const EffectContext& context, const EffectSetting& setting)
       : coulomb_N_(context.axis.ball_screw.coulomb_N),
+        guide_(context.axis.guide),
         table_mass_kg_(context.model.table_mass_kg),
-        friction_per_load_(setting.values[0]) {}
+        friction_per_load_(setting.values[0]),
+        guide_friction_share_(setting.values[1]) {}
 
   void scale(const EffectMotion& m, FrictionScale<double>& scale) const noexcept override {
-    const double nut_N = std::abs(table_mass_kg_ * m.acceleration_m_per_s2 + m.table_load_N);
+    const double guide_N = guide_friction_share_ > 0.0 ? guide_friction_share_ * sliding_N(m) : 0.0;
+    const double nut_N = std::abs(table_mass_kg_ * m.acceleration_m_per_s2 + m.table_load_N + guide_N);
     scale.screw_sliding *= 1.0 + friction_per_load_ * nut_N / (m.sign > 0.0 ? coulomb_N_.pos : coulomb_N_.neg);
   }
 
  private:
+  /// Of the guide, Eq. 3 once its bristles have settled.
+  [[nodiscard]] double sliding_N(const EffectMotion& m) const noexcept {
+    const auto side = m.sign > 0.0 ? &Directional::pos : &Directional::neg;
+    const double speed = std::abs(m.velocity_m_per_s), falling = std::exp(-speed / (guide_.stribeck_m_per_s.*side));
+    const double coulomb = guide_.coulomb_N.*side, stiction = guide_.static_N.*side - coulomb;
+    return m.sign * (coulomb + stiction * falling + guide_.viscous_Ns_per_m.*side * speed);
+  }
+
   Directional coulomb_N_;
-  double table_mass_kg_, friction_per_load_;
+  LugreParameters guide_;
+  double table_mass_kg_, friction_per_load_, guide_friction_share_;
 };
 
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array load_dependent_friction_parameters{
     EffectParameter{"friction_per_load", "1", 0.0, 1.0, {}, 0.0, "friction force for each newton through the nut"},
+    EffectParameter{"guide_friction_share", "1", 0.0, 1.0, 0.0, {}, "how much of the guide's own friction counts as going through the nut"},
 };
 // clang-format on
 

@@ -45,7 +45,7 @@ Steady steady(FeedAxis& axis, double speed_m_per_s, double duration_s, double cu
 
 /// Nominal friction at a steady speed, by the source's Eqs. 1-3.
 struct Nominal {
-  double screw_sliding_N, screw_viscous_N, others_N;
+  double screw_sliding_N, screw_viscous_N, others_N, guide_N;  ///< the guide's is one of the others
   [[nodiscard]] double all_N() const { return screw_sliding_N + screw_viscous_N + others_N; }
 };
 Nominal nominal(double v) {
@@ -57,7 +57,8 @@ Nominal nominal(double v) {
   const double sign = v > 0.0 ? 1.0 : -1.0;
   return {sign * sliding(p.ball_screw), p.ball_screw.viscous_Ns_per_m.*side * v,
           sign * (sliding(p.guide) + p.motor.coulomb_N.*side) +
-              (p.guide.viscous_Ns_per_m.*side + p.motor.damping_Nms.*side * rad_per_m * rad_per_m) * v};
+              (p.guide.viscous_Ns_per_m.*side + p.motor.damping_Nms.*side * rad_per_m * rad_per_m) * v,
+          sign * sliding(p.guide) + p.guide.viscous_Ns_per_m.*side * v};
 }
 
 TEST(Laws, ForceAtSteadySpeed) {
@@ -89,12 +90,19 @@ TEST(Laws, ForceAtSteadySpeed) {
       {{"position_friction", {0.8}, {}},
        0.0,
        [](const Nominal& n, double, const Steady& s) { return n.all_N() + 0.8 * s.position_m / 10.0 * n.screw_sliding_N; }},
-      {{"load_dependent_friction", {0.15}, {}},
+      {{"load_dependent_friction", {0.15, 0.0}, {}},
        400.0,
        [](const Nominal& n, double v, const Steady&) {
          const auto p = source_axis();
          const double coulomb = v > 0.0 ? p.ball_screw.coulomb_N.pos : p.ball_screw.coulomb_N.neg;
          return n.all_N() + 400.0 + 0.15 * 400.0 / coulomb * n.screw_sliding_N;
+       }},
+      {{"load_dependent_friction", {0.15, 1.0}, {}},
+       400.0,
+       [](const Nominal& n, double v, const Steady&) {
+         const auto p = source_axis();
+         const double coulomb = v > 0.0 ? p.ball_screw.coulomb_N.pos : p.ball_screw.coulomb_N.neg;
+         return n.all_N() + 400.0 + 0.15 * std::abs(400.0 + n.guide_N) / coulomb * n.screw_sliding_N;
        }},
       {{"direction_dependent_friction", {12.0, 200.0}, {}},
        0.0,

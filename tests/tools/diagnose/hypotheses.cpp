@@ -67,7 +67,7 @@ const std::map<std::string_view, Trial>& trials() {
         {0, 0, 0.0193, 1}}},
       {"count_loss", {{{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}, {0, 2.1}}},
       {"screw_growth", {{{"relative_growth", 1e-4}, {"time_constant_s", 1.5}, {"fixed_end_m", -0.1}}, {0, 2, -0.06}}},
-      {"load_dependent_friction", {{{"friction_per_load", 0.3}}, {0}}},
+      {"load_dependent_friction", {{{"friction_per_load", 0.3}, {"guide_friction_share", 1.0}}, {0, 1}}},
       {"presliding_memory", {{{"force_N", 80.0}, {"distance_m", 2e-5}}, {0, 3e-5}}},
   };
   return all;
@@ -170,7 +170,7 @@ TEST(LoadDependentFriction, RisesWithTheWeightAsWellAsWithTheMass) {
   truth.effects = {tests::effect("gravity", {{"force_N", weight_N}}),
                    tests::effect("load_dependent_friction", {{"friction_per_load", per_load}})};
   const InverseModel model(make_tracks(runs_of(truth, true, false), nominal), nominal);
-  const Candidate start{nominal, {{&hypothesis("gravity"), {0.0}}, {&hypothesis("load_dependent_friction"), {0.0}}}};
+  const Candidate start{nominal, {{&hypothesis("gravity"), {0.0}}, {&hypothesis("load_dependent_friction"), {0.0, 0.0}}}};
   const Candidate fitted = Fitter(model, nominal).fit(start, whitening_of(true, false), 10).model;
   EXPECT_NEAR(fitted.effects[0].q[0], weight_N, 0.03 * std::abs(weight_N));
   EXPECT_NEAR(fitted.effects[1].q[0], per_load, 0.03 * per_load);

@@ -1,4 +1,5 @@
-// Friction that rises with the load on the nut: F_C and F_S times 1 + c |F| / F_C, F = M_L a + what else loads the table.
+// Friction that rises with the load on the nut: F_C and F_S times 1 + c |F| / F_C, F = M_L a + what else loads the
+// table, with the guide's friction or without.
 
 #include <cmath>
 
@@ -7,6 +8,15 @@
 
 namespace feedtwin::tools::diagnosis {
 namespace {
+
+/// The guide's friction once its bristles have settled, as the plant's term has it.
+double sliding_N(const plant::LugreParameters& guide, double v) {
+  const auto side = v > 0.0 ? &plant::Directional::pos : &plant::Directional::neg;
+  const double stiction = guide.static_N.*side - guide.coulomb_N.*side;
+  const double size = guide.coulomb_N.*side + stiction * std::exp(-std::abs(v) / (guide.stribeck_m_per_s.*side)) +
+                      guide.viscous_Ns_per_m.*side * std::abs(v);
+  return v > 0.0 ? size : -size;
+}
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
@@ -17,14 +27,15 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   for (Index k = 1; k < track.size; ++k) {  // from the smoothed motion: its noise would be rectified
     const double change = track.table_velocity_m_per_s[k] - track.table_velocity_m_per_s[k - 1];
     const double load_N = loads.guide_N.size() > 0 ? loads.guide_N[k] : 0.0;
-    const double nut_N = std::abs(mass_kg * change / track.sample_s + load_N);
+    const double guide_N = q[1] > 0.0 ? q[1] * sliding_N(view.axis.guide, track.table_velocity_m_per_s[k]) : 0.0;
+    const double nut_N = std::abs(mass_kg * change / track.sample_s + load_N + guide_N);
     factor[k] += q[0] * nut_N / (track.velocity_m_per_s[k] > 0.0 ? coulomb.pos : coulomb.neg);
   }
   scale(sum.screw_sliding, factor);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"friction_per_load", q[0]}};
+  return {{"friction_per_load", q[0]}, {"guide_friction_share", q[1]}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -38,8 +49,8 @@ Hypothesis load_dependent_friction() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"friction_per_load", Kind::amplitude, 1e-2, 0.0, 1.0}},
-          .shapes = {{}},
+          .parameters = {{"friction_per_load", Kind::amplitude, 1e-2, 0.0, 1.0}, {"guide_friction_share", Kind::fixed}},
+          .shapes = {{0.0}, {1.0}},
           .apply = apply,
           .named = named,
           .admissible = possible,
