@@ -9,6 +9,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <span>
 
 #include "tools/linear_systems.h"
 #include "tools/parallel.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr Index surrogates = 199;
 constexpr std::size_t most_by_chance = 24;  ///< grid points of a hypothesis that surrogates are tried on
 constexpr Index block_rows = 50;            // 0.2 s: longer than a reversal's burst
+constexpr double much = 0.05;               // of the squares that it touches
 
 /// Stretches of rows whose sign a surrogate draws at random: their strength stays, their relation to any regressor goes.
 std::vector<Segment> blocks_of(const InverseModel& model) {
@@ -137,25 +139,135 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
 
 namespace {
 
-Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, const Fitter& fitter, const Fit& fit,
-              const Whitening& whitening) {
-  const InverseModel& model = fitter.model();
-  const Eigen::MatrixXd q = orthonormal(fit.jacobian);
-  const Vector left = fit.white - q * (q.transpose() * fit.white);
-  const auto blocks = blocks_of(model);
-  const Eigen::MatrixXd signs = random_signs(blocks.size());
+/// What a hypothesis of one shape does to the whitened residual for each of its amplitudes, and what they are by least
+/// squares with the model's own numbers free.
+struct Columns {
+  Eigen::MatrixXd white, on_q;  ///< all rows; along the numbers' directions, over the rows that it touches
+  Eigen::MatrixXd gram;         ///< what the numbers cannot do
+  Eigen::LDLT<Eigen::MatrixXd> solver;
+  Vector amplitude;
+  double touched = 0.0;  ///< squares of the residual's rows that it touches
+  bool any = false;
 
-  const auto contacts = model.contacts(fit.model.axis, fit.model.effects);
-  const auto prepared = model.prepared(fit.model.axis, fit.model.effects, contacts);
-  const auto fall_of = [&](const Active& more) -> Vector {
-    if (!more.hypothesis->friction) return model.fall(fit.model.axis, prepared, fit.residual, more);
-    auto effects = fit.model.effects;
+  /// What it explains of each row, the numbers refitted.
+  [[nodiscard]] Vector explained(const Eigen::MatrixXd& q) const {
+    return white * amplitude - q.topRows(white.rows()) * (on_q * amplitude);
+  }
+};
+
+/// Hypotheses one at a time against one residual.
+class Asking {
+ public:
+  Asking(const Fitter& fitter, const Fit& fit, const Whitening& whitening)
+      : model_(fitter.model()),
+        fit_(fit),
+        whitening_(whitening),
+        q_(orthonormal(fit.jacobian)),
+        left_(fit.white - q_ * (q_.transpose() * fit.white)),
+        contacts_(model_.contacts(fit.model.axis, fit.model.effects)),
+        prepared_(model_.prepared(fit.model.axis, fit.model.effects, contacts_)),
+        blocks_(blocks_of(model_)),
+        signs_(random_signs(blocks_.size())) {}
+
+  [[nodiscard]] const Vector& left() const { return left_; }
+  /// What is left of each row without what such a hypothesis explains.
+  [[nodiscard]] Vector without(const Columns& c) const { return left_.head(model_.rows()) - c.explained(q_); }
+
+  [[nodiscard]] Columns columns_of(const Task& task) const {
+    const Hypothesis& hypothesis = *task.hypothesis;
+    const std::vector<double> at = with_shape(hypothesis, *task.shape);
+    const auto amplitudes = amplitudes_of(hypothesis);
+    const auto count = static_cast<Index>(amplitudes.size());
+    Columns c;
+    c.white.resize(model_.rows(), count);
+    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
+      Active near{&hypothesis, at};
+      const double step = task.reach * hypothesis.parameters[amplitudes[a]].step;
+      near.q[amplitudes[a]] = step;
+      c.white.col(static_cast<Index>(a)) = fall_of(near) / step;
+    }
+    whitening_.apply(model_, c.white);
+    // only the rows of the equations that it touches count; what the model's own numbers can do comes off
+    c.on_q = Eigen::MatrixXd::Zero(q_.cols(), count);
+    for (const auto& s : model_.segments()) {
+      if (s.size == 0 || !(c.white.middleRows(s.start, s.size).cwiseAbs().maxCoeff() > 0.0)) continue;
+      c.touched += left_.segment(s.start, s.size).squaredNorm();
+      c.on_q.noalias() += q_.middleRows(s.start, s.size).transpose() * c.white.middleRows(s.start, s.size);
+    }
+    const Vector before = c.white.colwise().squaredNorm();
+    c.any = before.maxCoeff() > 0.0;
+    if (!c.any) return c;
+    c.gram = c.white.transpose() * c.white - c.on_q.transpose() * c.on_q;
+    // where only the numbers' tolerance stands against it a ten-millionth may be left; less is rounding of the projection
+    for (Index k = 0; k < count; ++k)
+      if (!(c.gram(k, k) > 1e-11 * before[k])) c.gram(k, k) += 1e6 * (before[k] + 1e-30);  // nothing the model could not do
+    c.solver.compute(c.gram);
+    c.amplitude = c.solver.solve(c.white.transpose() * left_.head(model_.rows()));
+    return c;
+  }
+
+  [[nodiscard]] Score score_of(const Task& task, const Columns& c) const {
+    const Hypothesis& hypothesis = *task.hypothesis;
+    Score score{&hypothesis, with_shape(hypothesis, *task.shape), c.touched, 0.0, 0.0, {}};
+    if (!c.any) return score;
+    score.gain = c.amplitude.dot(c.white.transpose() * left_.head(model_.rows()));
+    // the wrong sign, or beyond what can be: what the nearest possible value brings
+    Vector reachable = c.amplitude;
+    const auto amplitudes = amplitudes_of(hypothesis);
+    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
+      double& value = reachable[static_cast<Index>(a)];
+      const auto& p = hypothesis.parameters[amplitudes[a]];
+      value = std::clamp(value, p.lowest, p.highest);
+      score.q[amplitudes[a]] = value;
+    }
+    const Vector off = reachable - c.amplitude;
+    score.gain = std::max(0.0, score.gain - off.dot(c.gram * off));
+    if (!possible({&hypothesis, score.q}, fit_.model.axis)) score.gain = 0.0;
+    return score;
+  }
+
+  /// Its gains on surrogates of a residual: blocks whose signs are drawn at random.
+  [[nodiscard]] Eigen::RowVectorXd by_chance(const Columns& c, const Vector& residual) const {
+    if (!c.any) return Eigen::RowVectorXd::Zero(surrogates);
+    Eigen::MatrixXd by_block(c.white.cols(), static_cast<Index>(blocks_.size()));
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const auto& s = blocks_[b];
+      const auto rest = residual.segment(s.start, s.size);
+      by_block.col(static_cast<Index>(b)) = c.white.middleRows(s.start, s.size).transpose() * rest -
+                                            c.on_q.transpose() * (q_.middleRows(s.start, s.size).transpose() * rest);
+    }
+    const Eigen::MatrixXd drawn = by_block * signs_;
+    return drawn.cwiseProduct(c.solver.solve(drawn)).colwise().sum();
+  }
+
+ private:
+  static std::vector<std::size_t> amplitudes_of(const Hypothesis& hypothesis) {
+    std::vector<std::size_t> amplitudes;
+    for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i)
+      if (hypothesis.parameters[i].kind == Kind::amplitude) amplitudes.push_back(i);
+    return amplitudes;
+  }
+  [[nodiscard]] Vector fall_of(const Active& more) const {
+    if (!more.hypothesis->friction) return model_.fall(fit_.model.axis, prepared_, fit_.residual, more);
+    auto effects = fit_.model.effects;
     effects.push_back(more);
-    return fit.residual - model.residual(fit.model.axis, effects);
-  };
+    return fit_.residual - model_.residual(fit_.model.axis, effects);
+  }
+
+  const InverseModel& model_;
+  const Fit& fit_;
+  const Whitening& whitening_;
+  const Eigen::MatrixXd q_;  ///< directions of the model's own numbers
+  const Vector left_;
+  const std::vector<ContactForces> contacts_;
+  const InverseModel::Prepared prepared_;
+  const std::vector<Segment> blocks_;
+  const Eigen::MatrixXd signs_;
+};
+
+std::vector<Task> tasks_of(const std::vector<const Hypothesis*>& asked, bool against_chance, const Fit& fit,
+                           const std::vector<std::vector<std::vector<double>>>& grids) {
   std::vector<Task> tasks;
-  std::vector<std::vector<std::vector<double>>> grids;
-  for (const auto* hypothesis : asked) grids.push_back(grid_of(*hypothesis, model, left));
   for (std::size_t h = 0; h < asked.size(); ++h) {
     const auto& shapes = grids[h];
     if (has(fit.model, *asked[h])) continue;
@@ -164,82 +276,61 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
       for (const double reach : asked[h]->reaches)
         tasks.push_back({asked[h], &shapes[i], reach, against_chance && i % every == 0});
   }
+  return tasks;
+}
+
+/// The best two that come near the best of a hypothesis whose shape stays as it starts.
+std::vector<std::vector<double>> nearly_as_good(std::span<const Score> scores, const Score& best) {
+  constexpr double nearly = 0.7;
+  constexpr std::size_t most = 2;
+  const auto stays = [](const WorkingParameter& p) { return p.kind == Kind::fixed; };
+  if (std::ranges::none_of(best.hypothesis->parameters, stays)) return {};
+  std::vector<const Score*> others;
+  for (const auto& score : scores)
+    if (score.q != best.q && score.gain > nearly * best.gain) others.push_back(&score);
+  std::ranges::sort(others, std::greater{}, &Score::gain);
+  std::vector<std::vector<double>> also;
+  for (std::size_t i = 0; i < std::min(most, others.size()); ++i) also.push_back(others[i]->q);
+  return also;
+}
+
+Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, const Fitter& fitter, const Fit& fit,
+              const Whitening& whitening) {
+  const Asking asking(fitter, fit, whitening);
+  std::vector<std::vector<std::vector<double>>> grids;
+  for (const auto* hypothesis : asked) grids.push_back(grid_of(*hypothesis, fitter.model(), asking.left()));
+  const auto tasks = tasks_of(asked, against_chance, fit, grids);
   std::vector<Score> found(tasks.size());
-  Eigen::MatrixXd gains(static_cast<Index>(tasks.size()), surrogates);
+  Eigen::MatrixXd gains = Eigen::MatrixXd::Zero(static_cast<Index>(tasks.size()), surrogates);
   parallel_for(tasks.size(), [&](std::size_t t) {
-    const Hypothesis& hypothesis = *tasks[t].hypothesis;
-    std::vector<double> at = with_shape(hypothesis, *tasks[t].shape);
-    std::vector<std::size_t> amplitudes;
-    for (std::size_t i = 0; i < at.size(); ++i)
-      if (hypothesis.parameters[i].kind == Kind::amplitude) amplitudes.push_back(i);
-    const auto count = static_cast<Index>(amplitudes.size());
-    Eigen::MatrixXd columns(model.rows(), count);
-    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
-      Active near{&hypothesis, at};
-      const double step = tasks[t].reach * hypothesis.parameters[amplitudes[a]].step;
-      near.q[amplitudes[a]] = step;
-      columns.col(static_cast<Index>(a)) = fall_of(near) / step;
-    }
-    whitening.apply(model, columns);
-    // only the rows of the equations that it touches count; what the model's own numbers can do comes off
-    std::vector<bool> in(model.segments().size());
-    double touched = 0.0;
-    Eigen::MatrixXd on_q = Eigen::MatrixXd::Zero(q.cols(), count);
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      const auto& s = model.segments()[i];
-      in[i] = s.size > 0 && columns.middleRows(s.start, s.size).cwiseAbs().maxCoeff() > 0.0;
-      if (!in[i]) continue;
-      touched += left.segment(s.start, s.size).squaredNorm();
-      on_q.noalias() += q.middleRows(s.start, s.size).transpose() * columns.middleRows(s.start, s.size);
-    }
-    found[t] = {&hypothesis, at, touched, 0.0, 0.0};
-    gains.row(static_cast<Index>(t)).setZero();
-    const Vector before = columns.colwise().squaredNorm();
-    if (!(before.maxCoeff() > 0.0)) return;
-    Eigen::MatrixXd gram = columns.transpose() * columns - on_q.transpose() * on_q;
-    // where only the numbers' tolerance stands against it a ten-millionth may be left; less is rounding of the projection
-    for (Index c = 0; c < count; ++c)
-      if (!(gram(c, c) > 1e-11 * before[c])) gram(c, c) += 1e6 * (before[c] + 1e-30);  // nothing the model could not do
-    const Eigen::LDLT<Eigen::MatrixXd> solver(gram);
-    const Vector amplitude = solver.solve(columns.transpose() * left.head(model.rows()));
-    found[t].gain = amplitude.dot(columns.transpose() * left.head(model.rows()));
-    if (tasks[t].by_chance) {
-      const Vector cut = on_q * amplitude;
-      Eigen::MatrixXd by_block(count, static_cast<Index>(blocks.size()));
-      for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const auto& s = blocks[b];
-        const auto part = columns.middleRows(s.start, s.size);
-        const auto own = q.middleRows(s.start, s.size);
-        // without what it explains, should it be real
-        const Vector rest = left.segment(s.start, s.size) - part * amplitude + own * cut;
-        by_block.col(static_cast<Index>(b)) = part.transpose() * rest - on_q.transpose() * (own.transpose() * rest);
-      }
-      const Eigen::MatrixXd drawn = by_block * signs;
-      gains.row(static_cast<Index>(t)) = drawn.cwiseProduct(solver.solve(drawn)).colwise().sum();
-    }
-    // the wrong sign, or beyond what can be: what the nearest possible value brings
-    Vector reachable = amplitude;
-    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
-      double& value = reachable[static_cast<Index>(a)];
-      const auto& p = hypothesis.parameters[amplitudes[a]];
-      value = std::clamp(value, p.lowest, p.highest);
-      found[t].q[amplitudes[a]] = value;
-    }
-    const Vector off = reachable - amplitude;
-    found[t].gain = std::max(0.0, found[t].gain - off.dot(gram * off));
-    if (!possible({&hypothesis, found[t].q}, fit.model.axis)) found[t].gain = 0.0;
+    const Columns columns = asking.columns_of(tasks[t]);
+    found[t] = asking.score_of(tasks[t], columns);
+    // without what it explains, should it be real
+    if (tasks[t].by_chance && columns.any)
+      gains.row(static_cast<Index>(t)) = asking.by_chance(columns, asking.without(columns));
   });
 
   Screen result;
   Eigen::VectorXd largest = Eigen::VectorXd::Constant(surrogates, -1e300);
   for (std::size_t t = 0; t < tasks.size();) {
-    std::size_t end = t;
-    Eigen::VectorXd best = Eigen::VectorXd::Zero(surrogates);
-    Score score = found[t];
-    for (; end < tasks.size() && tasks[end].hypothesis == tasks[t].hypothesis; ++end) {
-      best = best.cwiseMax(gains.row(static_cast<Index>(end)).transpose());
-      if (found[end].gain > score.gain) score = found[end];
+    std::size_t end = t, best_task = t;
+    while (end < tasks.size() && tasks[end].hypothesis == tasks[t].hypothesis) {
+      if (found[end].gain > found[best_task].gain) best_task = end;
+      ++end;
     }
+    Score score = found[best_task];
+    score.also = nearly_as_good(std::span(found).subspan(t, end - t), score);
+    // Where it explains much, another of its shapes sees that as noise of its own kind, and within a block the two are
+    // nearly one: a ripple of order 12 is nearly one of 11.75. So it comes off for all of them.
+    if (against_chance && score.gain > much * score.touched) {
+      const Vector rest = asking.without(asking.columns_of(tasks[best_task]));
+      parallel_for(end - t, [&](std::size_t i) {
+        if (tasks[t + i].by_chance)
+          gains.row(static_cast<Index>(t + i)) = asking.by_chance(asking.columns_of(tasks[t + i]), rest);
+      });
+    }
+    const Eigen::VectorXd best =
+        gains.middleRows(static_cast<Index>(t), static_cast<Index>(end - t)).colwise().maxCoeff().transpose().cwiseMax(0.0);
     const double mean = best.mean();
     const double spread = std::sqrt((best.array() - mean).square().mean()) + 1e-9;
     score.standard = (score.gain - mean) / spread;

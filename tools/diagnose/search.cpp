@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/preferred.h"
@@ -121,6 +122,23 @@ class Search {
     take(struck.model, rounds);
   }
 
+  /// With it, by the whole number that does best on stretches that it was not fitted to, where several come near.
+  Fit fitted(Score score) {
+    const auto refit = [&] {
+      return fit_with(fitter_, fit_.model, score, fit_.model.effects.size(), whitening_, iterations);
+    };
+    const auto foretold = [&](const Fit& fit) {
+      const auto verdict = judged(fitter_, fit, fit_, *score.hypothesis, bar_);
+      return on_unseen(fitter_.model(), fit, fit_, *score.hypothesis, verdict, bar_).gain;
+    };
+    Fit best = refit();
+    for (const auto& q : std::exchange(score.also, {})) {
+      score.q = q;
+      if (Fit other = refit(); foretold(other) > foretold(best)) best = std::move(other);
+    }
+    return best;
+  }
+
   /// The best of the hypotheses that pass the bar, refitted jointly.
   bool add_best() {
     std::vector<Tried> enough;
@@ -137,7 +155,7 @@ class Search {
       if (score.gain < bar_.gain || by_chance_alone || dropped_.contains(score.hypothesis)) continue;
       ++tried;
       if (tried > refitted && (!enough.empty() || tried > refitted_for_one)) break;
-      Fit fit = fit_with(fitter_, fit_.model, score, fit_.model.effects.size(), whitening_, iterations);
+      Fit fit = fitted(score);
       if (!possible(fit.model.effects.back(), fit.model.axis)) {
         progress_(fmt::format("  {}: no such size", in_words(fit.model.effects.back(), fit.model.axis)));
         continue;
