@@ -16,7 +16,7 @@ struct Score {
   double gain = 0.0;      ///< fall of the cost
   double standard = 0.0;  ///< gain less its mean on surrogates, in their standard deviations
   /// The same by other whole numbers, nearly as much: rows four samples apart show one order as another.
-  std::vector<std::vector<double>> also;
+  std::vector<std::vector<double>> also = {};
 };
 
 struct Screen {
