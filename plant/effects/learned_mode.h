@@ -23,7 +23,9 @@ class LearnedMode final : public Effect {
   void reset(double /*position_m*/) noexcept override { ahead_m_ = speed_m_per_s_ = 0.0; }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    const double slip = m.velocity_m_per_s - speed_m_per_s_;
+    const double slip = m.velocity_m_per_s - speed_m_per_s_, damping = 2.0 * damping_ratio_ * w_;
+    if (w_ * m.h_s < 1e-7)  // of an instant the difference below is rounding
+      return {mass_kg_ * (w_ * w_ * ahead_m_ + damping * slip), mass_kg_ * damping};
     const Swing s = swing(m.h_s);
     return {mass_kg_ * (slip - (s.speed_by_place * ahead_m_ + s.speed_by_speed * slip)) / m.h_s,
             mass_kg_ * (1.0 - s.speed_by_speed) / m.h_s};
@@ -59,8 +61,8 @@ class LearnedMode final : public Effect {
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array learned_mode_parameters{
-    EffectParameter{"mass_kg", "kg", 0.0, 10000.0, {}, 0.0, "of the part that swings"},
-    EffectParameter{"frequency_Hz", "Hz", 0.1, 200.0, {}, {}, "that it would swing at without its damper"},
+    EffectParameter{"mass_kg", "kg", 0.0, 1000.0, {}, 0.0, "of the part that swings"},
+    EffectParameter{"frequency_Hz", "Hz", 0.1, 100.0, {}, {}, "that it would swing at without its damper"},
     EffectParameter{"damping_ratio", "1", 0.0, 0.9, 0.02, {}, "of its damper"},
 };
 // clang-format on

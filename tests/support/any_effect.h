@@ -42,7 +42,9 @@ inline double any_value(const EffectParameter& p, std::mt19937& random) {
   }
 }
 
-inline EffectSetting any_setting(const EffectEntry& entry, std::mt19937& random) {
+/// Each effect's numbers come from a sequence of their own, so that one parameter more does not draw all others anew.
+inline EffectSetting any_setting(const EffectEntry& entry, std::mt19937& seeds) {
+  std::mt19937 random(static_cast<std::mt19937::result_type>(seeds()));
   EffectSetting setting{std::string(entry.id), {}, {}};
   for (const auto& p : entry.parameters) {
     if (!p.list) setting.values.push_back(any_value(p, random));

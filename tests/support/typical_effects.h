@@ -34,7 +34,7 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"lead_error", {2e-4}},
       {"learned_mode", {4.0, 8.0, 0.03}},
       {"load_dependent_friction", {0.2, 0.5}},
-      {"local_friction", {20.0, 1e-3, 2e-3}},
+      {"local_friction", {20.0, 1e-3, 2e-3, 0.0}},
       {"motor_presliding", {1e-6}},
       {"payload", {8.0}},
       {"position_friction", {0.5}},

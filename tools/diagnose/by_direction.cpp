@@ -80,6 +80,7 @@ std::optional<NamedEffect> difference_by_direction(const Fitter& fitter, const F
   if (!coulomb.shows(covariance) && !viscous.shows(covariance)) return std::nullopt;
   NamedEffect effect;
   effect.hypothesis = &own;
+  effect.component = own.component;
   effect.parameters = {{"coulomb_difference_N", estimate(coulomb, covariance)},
                        {"viscous_difference_Ns_per_m", estimate(viscous, covariance)}};
   // what the cost would rise by, were the differences none (Wald)

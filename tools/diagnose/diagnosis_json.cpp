@@ -44,7 +44,7 @@ json of(const NamedEffect& effect) {
   for (const auto& [low, high] : effect.intervals) intervals.push_back({low, high});
   const auto& h = *effect.hypothesis;
   return {{"id", h.id},
-          {"component", h.component},
+          {"component", effect.component},
           {"sentence", effect.sentence},
           {"where", {{"channel", h.channel}, {"axis", name_of(h.where)}, {"intervals", intervals}}},
           {"parameters", parameters},

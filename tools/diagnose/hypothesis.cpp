@@ -44,6 +44,11 @@ bool runs_may_tell(const Active& active) {
   return true;
 }
 
+std::string_view component_of(const Active& active) {
+  const Hypothesis& h = *active.hypothesis;
+  return h.component_for != nullptr ? h.component_for(active.q) : h.component;
+}
+
 std::string in_words(const Active& active, const plant::AxisParameters& axis) {
   std::string values;
   for (const auto& [name, value] : active.hypothesis->named(active.q, axis))

@@ -127,6 +127,9 @@ struct Hypothesis {
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 
+  /// Where it acts, if its numbers say so.
+  std::string_view (*component_for)(std::span<const double> q) = nullptr;
+
   bool jumps = false;       ///< its law jumps with its numbers: a mark is passed a sample earlier or later
   bool friction = false;    ///< sets the factors, so that friction must be followed again
   bool forces_too = false;  ///< and more than these: otherwise the forces need not ask it
@@ -141,6 +144,8 @@ struct Active {
 
 /// Is the fitted value physically possible?
 [[nodiscard]] bool possible(const Active& active, const plant::AxisParameters& axis);
+/// Where it acts.
+[[nodiscard]] std::string_view component_of(const Active& active);
 /// "cogging (amplitude_Nm 0.012, cycles_per_rev 12)"
 [[nodiscard]] std::string in_words(const Active& active, const plant::AxisParameters& axis);
 /// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.

@@ -28,6 +28,7 @@ std::optional<NamedEffect> payload_in_mass(const Fitter& fitter, const Fit& fit,
     return std::nullopt;
   NamedEffect effect;
   effect.hypothesis = &own;
+  effect.component = own.component;
   // what the table itself weighs is known by the axis file alone
   const double half_kg = normal_90 * std::hypot(for_the_laws * deviation_kg, tolerance_kg);
   effect.parameters = {{"mass_kg", {more_kg, more_kg - half_kg, more_kg + half_kg}}};

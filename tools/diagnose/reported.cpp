@@ -116,6 +116,7 @@ std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, con
 NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance, const InverseModel& model) {
   NamedEffect effect;
   effect.hypothesis = one.effect.hypothesis;
+  effect.component = component_of(one.effect);
   for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
     if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, covariance, e);
   effect.share = one.share;

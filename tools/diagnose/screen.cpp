@@ -283,11 +283,15 @@ std::vector<Task> tasks_of(const std::vector<const Hypothesis*>& asked, bool aga
 std::vector<std::vector<double>> nearly_as_good(std::span<const Score> scores, const Score& best) {
   constexpr double nearly = 0.7;
   constexpr std::size_t most = 2;
-  const auto stays = [](const WorkingParameter& p) { return p.kind == Kind::fixed; };
-  if (std::ranges::none_of(best.hypothesis->parameters, stays)) return {};
+  const auto& parameters = best.hypothesis->parameters;
+  const auto another = [&](const Score& score) {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].kind == Kind::fixed && score.q[i] != best.q[i]) return true;
+    return false;
+  };
   std::vector<const Score*> others;
   for (const auto& score : scores)
-    if (score.q != best.q && score.gain > nearly * best.gain) others.push_back(&score);
+    if (score.gain > nearly * best.gain && another(score)) others.push_back(&score);
   std::ranges::sort(others, std::greater{}, &Score::gain);
   std::vector<std::vector<double>> also;
   for (std::size_t i = 0; i < std::min(most, others.size()); ++i) also.push_back(others[i]->q);

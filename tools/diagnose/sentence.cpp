@@ -33,7 +33,7 @@ std::string sentence_of(const NamedEffect& effect) {
   }
   for (auto at = text.find('{'); at != std::string::npos; at = text.find('{'))
     text.replace(at, text.find('}', at) + 1 - at, "(not told by these data)");
-  text = fmt::format("{}: {}. {}; chance of a false alarm over all hypotheses {:.1g}.", effect.hypothesis->component, text,
+  text = fmt::format("{}: {}. {}; chance of a false alarm over all hypotheses {:.1g}.", effect.component, text,
                      how_much(effect), std::max(1e-6, effect.p_false_alarm));
   std::vector<std::string> ruled_out;
   for (const auto other : effect.hypothesis->confused_with)

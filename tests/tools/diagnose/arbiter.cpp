@@ -137,7 +137,7 @@ TEST(Confirm, WhatTheClosedLoopItselfHasNamedIsNotAsked) {
 TEST(Missed, ANameThatTheClosedLoopDoesAsWellWithoutIsTakenBackAndTheRightOneStays) {
   const Cogged made;
   Candidate model{made.data.axis,
-                  {{&hypothesis("local_friction"), {1.0, 0.004, 0.002}}, {&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
+                  {{&hypothesis("local_friction"), {1.0, 0.004, 0.002, 0.0}}, {&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
   Fit fit = made.fitter.linearised(model, made.whitening);
   SearchResult result;
   result.whitening = made.whitening;

@@ -30,7 +30,7 @@ TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {
 
 TEST(LocalFriction, IsNarrowAndNoMoreThanTheAxisHas) {
   const auto can_be = [](double height_N, double half_width_m) {
-    return possible({&hypothesis("local_friction"), {height_N, 0.01, half_width_m}}, plant::source_axis());
+    return possible({&hypothesis("local_friction"), {height_N, 0.01, half_width_m, 0.0}}, plant::source_axis());
   };
   EXPECT_TRUE(can_be(60.0, 2e-3));
   EXPECT_TRUE(can_be(5.0, 0.06 * plant::source_axis().axis.stroke_m));

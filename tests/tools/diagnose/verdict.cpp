@@ -63,7 +63,7 @@ bool unknown_with_told(double told_N) {
   const tools::Case data = tests::short_case(truth, plant::source_axis());
   const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
-  const Active told{&hypothesis("local_friction"), {told_N, centre_m, half_width_m}};
+  const Active told{&hypothesis("local_friction"), {told_N, centre_m, half_width_m, 0.0}};
   SearchResult found;
   found.recalibrated.residual = model.residual(data.axis, {});
   auto& one = found.found.emplace_back();

@@ -1,4 +1,4 @@
-// A damaged spot: more friction about one place of the guide.
+// A damaged spot: more friction about one place of the guide, or of the screw.
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,12 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const auto offset = (view.track.position_m.array() - q[1]) / q[2];
-  add(sum.guide_N, (q[0] * view.track.centred_m_per_s.array().sign() * (-offset.square()).exp()).matrix());
+  add(q[3] > 0.5 ? sum.screw_N : sum.guide_N,
+      (q[0] * view.track.centred_m_per_s.array().sign() * (-offset.square()).exp()).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"height_N", q[0]}, {"centre_m", q[1]}, {"half_width_m", q[2]}};
+  return {{"height_N", q[0]}, {"centre_m", q[1]}, {"half_width_m", q[2]}, {"on_screw", q[3]}};
 }
 
 /// Wider is friction that varies along the stroke; more than all the axis's own friction again is something solid.
@@ -25,17 +26,20 @@ bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
   return q[0] > 0.0 && q[0] < own_N && q[2] < 0.075 * axis.axis.stroke_m;
 }
 
-/// All along the recorded travel, narrow, wider, and a twelfth of it wide.
+/// All along the recorded travel, narrow, wider, and a twelfth of it wide; of the screw too where a force sensor tells.
 Grid places_of(const std::vector<Track>& runs) {
   double low_m = 1e300, high_m = -1e300;
   for (const auto& run : runs) {
     low_m = std::min(low_m, run.position_m.minCoeff());
     high_m = std::max(high_m, run.position_m.maxCoeff());
   }
+  const bool told = std::ranges::any_of(runs, [](const Track& run) { return run.force_sensor_N.size() > 0; });
   const double travel_m = high_m - low_m, narrow_m = std::max(0.002, travel_m / 150.0);
   Grid grid;
   for (const double width_m : {narrow_m, 3.0 * narrow_m, travel_m / 12.0})
-    for (int i = 0; i * width_m < travel_m; ++i) grid.push_back({low_m + i * width_m, width_m});
+    for (int i = 0; i * width_m < travel_m; ++i)
+      for (const double on_screw : {0.0, 1.0})
+        if (told || on_screw == 0.0) grid.push_back({low_m + i * width_m, width_m, on_screw});
   return grid;
 }
 
@@ -48,7 +52,8 @@ Hypothesis local_friction() {
           .where = Where::position,
           .parameters = {{"force_N", Kind::amplitude, 0.1},
                          {"position_m", Kind::shape, 1e-4, -10.0, 10.0},
-                         {"half_width_m", Kind::shape, 1e-4, 2e-4, 0.2}},
+                         {"half_width_m", Kind::shape, 1e-4, 2e-4, 0.2},
+                         {"on_screw", Kind::fixed}},
           .shapes = {},
           .apply = apply,
           .named = named,
@@ -58,6 +63,7 @@ Hypothesis local_friction() {
           .least_strength = 0.25,
           .confused_with = {"position_friction"},
           .shapes_for = places_of,
+          .component_for = [](std::span<const double> q) -> std::string_view { return q[3] > 0.5 ? "ball_screw" : "guide"; },
           .friction = false};
 }
 
