@@ -88,6 +88,27 @@ bool of_its_own(const std::vector<Jump>& jumps, double counts) {
   return others <= most_others * all && std::abs(mark) < at_a_mark * all;
 }
 
+/// Lost one time and gained another: what an encoder that jitters looks like too. A scale tells, since lost counts stay
+/// lost.
+bool all_stay(const std::vector<Recording>& runs, const plant::AxisParameters& axis, double counts) {
+  constexpr std::size_t rows = 20;
+  constexpr double share = 0.7;  // more where two follow one another
+  const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
+  for (const auto& run : runs) {
+    const auto shown = run.at(channel::position_m), table = run.at(channel::scale_position_m);
+    if (table.empty()) return false;
+    for (const Jump& jump : as_large(jumps_of(run, axis), counts)) {
+      if (jump.row < rows + 1 || jump.row + rows >= shown.size()) continue;
+      double change = 0.0;
+      for (std::size_t i = 1; i <= rows; ++i)
+        change += (table[jump.row + i] - shown[jump.row + i]) - (table[jump.row - i] - shown[jump.row - i]);
+      const double lost = change / (static_cast<double>(rows) * count_m);
+      if (std::copysign(lost, lost * jump.counts) < share * counts) return false;
+    }
+  }
+  return true;
+}
+
 void give_back(Recording& run, const plant::AxisParameters& axis, double counts) {
   const double lost_m = counts * axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
   const auto jumps = jumps_of(run, axis);
@@ -110,9 +131,11 @@ std::optional<LostCounts> give_back_lost_counts(Case& data) {
   const double counts = size_of(all);
   const auto lost = as_large(all, counts);
   if (!of_its_own(lost, counts)) return std::nullopt;
+  const auto gained = std::ranges::count_if(lost, [](const Jump& one) { return one.counts < 0.0; });
+  const bool both = gained > 0 && gained < static_cast<std::ptrdiff_t>(lost.size());
+  if (both && !all_stay(data.fit, data.axis, counts)) return std::nullopt;
   for (auto* runs : {&data.fit, &data.holdout})
     for (auto& run : *runs) give_back(run, data.axis, counts);
-  const auto gained = std::ranges::count_if(lost, [](const Jump& one) { return one.counts < 0.0; });
   double squares = 0.0;
   for (const Jump& one : lost) squares += std::pow(std::abs(one.counts) - counts, 2);
   const double deviation = std::sqrt(squares) / static_cast<double>(lost.size());

@@ -122,8 +122,10 @@ class Search {
     take(struck.model, rounds);
   }
 
-  /// With it, by the whole number that does best on stretches that it was not fitted to, where several come near.
+  /// With it; where its whole number does not hold on stretches that it was not fitted to, by the one near it that does
+  /// best.
   Fit fitted(Score score) {
+    constexpr double holds = 0.5;
     const auto refit = [&] {
       return fit_with(fitter_, fit_.model, score, fit_.model.effects.size(), whitening_, iterations);
     };
@@ -132,6 +134,7 @@ class Search {
       return on_unseen(fitter_.model(), fit, fit_, *score.hypothesis, verdict, bar_).gain;
     };
     Fit best = refit();
+    if (score.also.empty() || foretold(best) > holds * (fit_.cost - best.cost)) return best;
     for (const auto& q : std::exchange(score.also, {})) {
       score.q = q;
       if (Fit other = refit(); foretold(other) > foretold(best)) best = std::move(other);

@@ -133,6 +133,13 @@ TEST(SetupChecks, CountsLostOnceAndGainedAnotherTimeAreGivenBackEach) {
   for (std::size_t k = 0; k < right.size(); ++k) ASSERT_NEAR(data.fit[0].channels.at("position_m")[k], right[k], 1e-9) << k;
 }
 
+TEST(SetupChecks, AReadingThatJumpsAndComesBackLosesNothing) {
+  Case data = recorded_with(plant::source_axis());
+  for (const double at_s : {0.31, 0.9, 1.47, 2.61, 3.05})
+    lose(data.fit[0], at_s < 1.0 ? 40.0 : -40.0, {at_s}), lose(data.fit[0], at_s < 1.0 ? -40.0 : 40.0, {at_s + 0.008});
+  EXPECT_TRUE(mend_setup(data).empty());
+}
+
 TEST(SetupChecks, LossesAtAMarkOrOfManySizesAreNoneOfTheirOwn) {
   auto axis = plant::source_axis();
   axis.effects.push_back(tests::effect("count_loss", {{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}));
