@@ -18,14 +18,17 @@ namespace feedtwin::plant::effects {
 class LearnedMode final : public Effect {
  public:
   LearnedMode(const EffectContext& /*context*/, const EffectSetting& setting)
-      : mass_kg_(setting.values[0]), w_(2.0 * std::numbers::pi * setting.values[1]), damping_ratio_(setting.values[2]) {}
+      : mass_kg_(setting.values[0]),
+        w_(2.0 * std::numbers::pi * setting.values[1]),
+        falling_per_s_(setting.values[2] * w_),
+        turning_per_s_(w_ * std::sqrt(1.0 - setting.values[2] * setting.values[2])) {}
 
   void reset(double /*position_m*/) noexcept override { ahead_m_ = speed_m_per_s_ = 0.0; }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    const double slip = m.velocity_m_per_s - speed_m_per_s_, damping = 2.0 * damping_ratio_ * w_;
+    const double slip = m.velocity_m_per_s - speed_m_per_s_;
     if (w_ * m.h_s < 1e-7)  // of an instant the difference below is rounding
-      return {mass_kg_ * (w_ * w_ * ahead_m_ + damping * slip), mass_kg_ * damping};
+      return {mass_kg_ * (w_ * w_ * ahead_m_ + 2.0 * falling_per_s_ * slip), 2.0 * mass_kg_ * falling_per_s_};
     const Swing s = swing(m.h_s);
     return {mass_kg_ * (slip - (s.speed_by_place * ahead_m_ + s.speed_by_speed * slip)) / m.h_s,
             mass_kg_ * (1.0 - s.speed_by_speed) / m.h_s};
@@ -48,13 +51,13 @@ class LearnedMode final : public Effect {
     double place_by_place, place_by_speed, speed_by_place, speed_by_speed;
   };
   [[nodiscard]] Swing swing(double h_s) const noexcept {
-    const double own = w_ * std::sqrt(1.0 - damping_ratio_ * damping_ratio_), fallen = std::exp(-damping_ratio_ * w_ * h_s);
-    const double sine = fallen * std::sin(own * h_s) / own, cosine = fallen * std::cos(own * h_s);
-    const double lag = damping_ratio_ * w_ * sine;
+    const double fallen = std::exp(-falling_per_s_ * h_s), turned = turning_per_s_ * h_s;
+    const double sine = fallen * std::sin(turned) / turning_per_s_, cosine = fallen * std::cos(turned);
+    const double lag = falling_per_s_ * sine;
     return {cosine + lag, sine, -w_ * w_ * sine, cosine - lag};
   }
 
-  double mass_kg_, w_, damping_ratio_;
+  double mass_kg_, w_, falling_per_s_, turning_per_s_;  ///< d w; w sqrt(1 - d^2)
   double ahead_m_ = 0.0, speed_m_per_s_ = 0.0;
 };
 

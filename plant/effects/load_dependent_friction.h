@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "plant/effects/entry.h"
+#include "plant/steady_friction.h"
 
 namespace feedtwin::plant::effects {
 
@@ -24,20 +25,13 @@ class LoadDependentFriction final : public Effect {
         guide_friction_share_(setting.values[1]) {}
 
   void scale(const EffectMotion& m, FrictionScale<double>& scale) const noexcept override {
-    const double guide_N = guide_friction_share_ > 0.0 ? guide_friction_share_ * sliding_N(m) : 0.0;
+    const double guide_N =
+        guide_friction_share_ > 0.0 ? guide_friction_share_ * steady_force_N(guide_, m.velocity_m_per_s) : 0.0;
     const double nut_N = std::abs(table_mass_kg_ * m.acceleration_m_per_s2 + m.table_load_N + guide_N);
     scale.screw_sliding *= 1.0 + friction_per_load_ * nut_N / (m.sign > 0.0 ? coulomb_N_.pos : coulomb_N_.neg);
   }
 
  private:
-  /// Of the guide, Eq. 3 once its bristles have settled.
-  [[nodiscard]] double sliding_N(const EffectMotion& m) const noexcept {
-    const auto side = m.sign > 0.0 ? &Directional::pos : &Directional::neg;
-    const double speed = std::abs(m.velocity_m_per_s), falling = std::exp(-speed / (guide_.stribeck_m_per_s.*side));
-    const double coulomb = guide_.coulomb_N.*side, stiction = guide_.static_N.*side - coulomb;
-    return m.sign * (coulomb + stiction * falling + guide_.viscous_Ns_per_m.*side * speed);
-  }
-
   Directional coulomb_N_;
   LugreParameters guide_;
   double table_mass_kg_, friction_per_load_, guide_friction_share_;

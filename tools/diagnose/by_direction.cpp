@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/diagnose/reported.h"
 #include "tools/diagnose/sentence.h"
 #include "tools/intervals.h"
 
@@ -11,7 +12,6 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double least_deviations = 6.0, least_share = 0.03;
-constexpr double for_the_laws = 2.0;  // as of any effect's interval (reported.cpp)
 
 /// A friction's sum over the components, forth less back, and how it goes with the base parameters.
 struct Difference {
@@ -78,16 +78,11 @@ std::optional<NamedEffect> difference_by_direction(const Fitter& fitter, const F
   const Difference coulomb = difference(fitter, fit, covariance.rows(), true);
   const Difference viscous = difference(fitter, fit, covariance.rows(), false);
   if (!coulomb.shows(covariance) && !viscous.shows(covariance)) return std::nullopt;
-  NamedEffect effect;
-  effect.hypothesis = &own;
-  effect.component = own.component;
-  effect.parameters = {{"coulomb_difference_N", estimate(coulomb, covariance)},
-                       {"viscous_difference_Ns_per_m", estimate(viscous, covariance)}};
-  // what the cost would rise by, were the differences none (Wald)
   const double gain = std::max(std::pow(coulomb.value() / coulomb.deviation(covariance), 2),
                                std::pow(viscous.value() / viscous.deviation(covariance), 2));
-  effect.share = gain / (gain + fit.cost);
-  effect.p_false_alarm = std::min(1.0, std::exp(-0.5 * gain) * static_cast<double>(hypotheses().size()));
+  NamedEffect effect = held_by_numbers(own, gain, fit);
+  effect.parameters = {{"coulomb_difference_N", estimate(coulomb, covariance)},
+                       {"viscous_difference_Ns_per_m", estimate(viscous, covariance)}};
   double fastest = 0.0;
   for (const auto& track : fitter.model().tracks()) fastest = std::max(fastest, track.centred_m_per_s.cwiseAbs().maxCoeff());
   effect.intervals = {{-fastest, fastest}};

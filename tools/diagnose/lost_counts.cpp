@@ -20,6 +20,7 @@ constexpr std::size_t beside = 3;  // samples before and after that say what the
 struct Jump {
   std::size_t row;     ///< first with the new reading
   double counts, rev;  ///< lost; where the shaft was
+  double stay;         ///< counts that a scale still misses some rows later; 0 without one
 };
 
 /// Counts that each sample's step is short of what the steps beside it are; of the table's own motion where a scale has it.
@@ -38,6 +39,17 @@ std::vector<double> short_of(const Recording& run, double count_m) {
   return lost;
 }
 
+/// By how many counts the reading falls back behind the scale from the rows before to those after; as it jumps, near an end.
+double missed_later(const Recording& run, std::size_t row, double counts, double count_m) {
+  constexpr std::size_t rows = 20;
+  const auto shown = run.at(channel::position_m), table = run.at(channel::scale_position_m);
+  if (table.empty()) return 0.0;
+  if (row < rows + 1 || row + rows >= shown.size()) return counts;
+  double change = 0.0;
+  for (std::size_t i = 1; i <= rows; ++i) change += (table[row + i] - shown[row + i]) - (table[row - i] - shown[row - i]);
+  return change / (static_cast<double>(rows) * count_m);
+}
+
 std::vector<Jump> jumps_of(const Recording& run, const plant::AxisParameters& axis) {
   constexpr double least_counts = 5.0, least_sigmas = 10.0;
   const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
@@ -47,7 +59,9 @@ std::vector<Jump> jumps_of(const Recording& run, const plant::AxisParameters& ax
   const double limit = std::max(least_counts, least_sigmas * 1.4826 * median_of(size));
   std::vector<Jump> found;
   for (std::size_t k = 0; k < lost.size(); ++k)
-    if (size[k] > limit) found.push_back({k, lost[k], run.at(channel::position_m)[k] / axis.axis.lead_m});
+    if (size[k] > limit)
+      found.push_back(
+          {k, lost[k], run.at(channel::position_m)[k] / axis.axis.lead_m, missed_later(run, k, lost[k], count_m)});
   return found;
 }
 
@@ -88,25 +102,11 @@ bool of_its_own(const std::vector<Jump>& jumps, double counts) {
   return others <= most_others * all && std::abs(mark) < at_a_mark * all;
 }
 
-/// Lost one time and gained another: what an encoder that jitters looks like too. A scale tells, since lost counts stay
-/// lost.
-bool all_stay(const std::vector<Recording>& runs, const plant::AxisParameters& axis, double counts) {
-  constexpr std::size_t rows = 20;
+/// Lost one time and gained another is what an encoder that jitters looks like too; lost counts stay lost.
+bool all_stay(const std::vector<Jump>& jumps, double counts) {
   constexpr double share = 0.7;  // more where two follow one another
-  const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
-  for (const auto& run : runs) {
-    const auto shown = run.at(channel::position_m), table = run.at(channel::scale_position_m);
-    if (table.empty()) return false;
-    for (const Jump& jump : as_large(jumps_of(run, axis), counts)) {
-      if (jump.row < rows + 1 || jump.row + rows >= shown.size()) continue;
-      double change = 0.0;
-      for (std::size_t i = 1; i <= rows; ++i)
-        change += (table[jump.row + i] - shown[jump.row + i]) - (table[jump.row - i] - shown[jump.row - i]);
-      const double lost = change / (static_cast<double>(rows) * count_m);
-      if (std::copysign(lost, lost * jump.counts) < share * counts) return false;
-    }
-  }
-  return true;
+  return std::ranges::all_of(jumps,
+                             [&](const Jump& one) { return std::copysign(1.0, one.counts) * one.stay >= share * counts; });
 }
 
 void give_back(Recording& run, const plant::AxisParameters& axis, double counts) {
@@ -133,7 +133,7 @@ std::optional<LostCounts> give_back_lost_counts(Case& data) {
   if (!of_its_own(lost, counts)) return std::nullopt;
   const auto gained = std::ranges::count_if(lost, [](const Jump& one) { return one.counts < 0.0; });
   const bool both = gained > 0 && gained < static_cast<std::ptrdiff_t>(lost.size());
-  if (both && !all_stay(data.fit, data.axis, counts)) return std::nullopt;
+  if (both && !all_stay(lost, counts)) return std::nullopt;
   for (auto* runs : {&data.fit, &data.holdout})
     for (auto& run : *runs) give_back(run, data.axis, counts);
   double squares = 0.0;

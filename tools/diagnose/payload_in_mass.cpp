@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/reported.h"
 #include "tools/diagnose/sentence.h"
 #include "tools/intervals.h"
 
@@ -10,7 +11,6 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double least_tolerances = 5.0, least_deviations = 8.0;
-constexpr double for_the_laws = 2.0;  // as of any effect's interval (reported.cpp)
 
 }  // namespace
 
@@ -26,15 +26,11 @@ std::optional<NamedEffect> payload_in_mass(const Fitter& fitter, const Fit& fit,
   if (more_kg < least_tolerances * tolerance_kg || more_kg < least_deviations * deviation_kg ||
       !possible({&own, {more_kg}}, fitter.nominal()))
     return std::nullopt;
-  NamedEffect effect;
-  effect.hypothesis = &own;
-  effect.component = own.component;
+  const double gain = std::pow(more_kg / std::max(deviation_kg, 1e-9 * tolerance_kg), 2);
+  NamedEffect effect = held_by_numbers(own, gain, fit);
   // what the table itself weighs is known by the axis file alone
   const double half_kg = normal_90 * std::hypot(for_the_laws * deviation_kg, tolerance_kg);
   effect.parameters = {{"mass_kg", {more_kg, more_kg - half_kg, more_kg + half_kg}}};
-  const double gain = std::pow(more_kg / std::max(deviation_kg, 1e-9 * tolerance_kg), 2);  // Wald
-  effect.share = gain / (gain + fit.cost);
-  effect.p_false_alarm = std::min(1.0, std::exp(-0.5 * gain) * static_cast<double>(hypotheses().size()));
   double longest_s = 0.0;
   for (const auto& track : fitter.model().tracks())
     longest_s = std::max(longest_s, static_cast<double>(track.size) * track.sample_s);

@@ -5,9 +5,17 @@
 
 namespace feedtwin::tools::diagnosis {
 
+/// Friction's laws are never quite the machine's, and that is in no residual's scatter: of 174 numbers in made cases (two
+/// sets that were looked at before) intervals of 90 % by the scatter alone held 0.75, twice as wide ones 0.86.
+inline constexpr double for_the_laws = 2.0;
+
 /// @param covariance of the base parameters, in tolerances, and then of the effects' working parameters
 [[nodiscard]] NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance,
                                        const InverseModel& model);
+
+/// What the nominal numbers hold by themselves, told under this name. Where it acts and what it is remain to be said.
+/// @param gain what the cost would rise by, were there none of it (Wald)
+[[nodiscard]] NamedEffect held_by_numbers(const Hypothesis& name, double gain, const Fit& fit);
 
 /// A lead that the set-up check has mended: what is left of its error is told with it, not as another finding.
 void tell_as_one_lead(Diagnosis& result);

@@ -8,13 +8,13 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double lowest_mode_Hz = 1.5, finer = 1.02;
+constexpr double lowest_Hz = 1.5, finer = 1.02;
 constexpr Index frequencies = 160;            // to 35 Hz
 constexpr double dampings[] = {0.015, 0.05};  // more of it, and the recent past holds all
 constexpr Index modes = frequencies * std::size(dampings);
 
 Mode mode_at(Index i) {
-  return {lowest_mode_Hz * std::pow(finer, static_cast<double>(i % frequencies)),
+  return {lowest_Hz * std::pow(finer, static_cast<double>(i % frequencies)),
           dampings[static_cast<std::size_t>(i / frequencies)]};
 }
 

@@ -2,59 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <numbers>
-#include <random>
 #include <span>
 
-#include "tools/linear_systems.h"
+#include "tools/diagnose/asking.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr Index surrogates = 199;
 constexpr std::size_t most_by_chance = 24;  ///< grid points of a hypothesis that surrogates are tried on
-constexpr Index block_rows = 50;            // 0.2 s: longer than a reversal's burst
 constexpr double much = 0.05;               // of the squares that it touches
-
-/// Stretches of rows whose sign a surrogate draws at random: their strength stays, their relation to any regressor goes.
-std::vector<Segment> blocks_of(const InverseModel& model) {
-  std::vector<Segment> blocks;
-  for (const auto& segment : model.segments()) {
-    const Index block = model.equations()[segment.equation].power ? 1 : block_rows;
-    for (Index k = 0; k < segment.size; k += block)
-      blocks.push_back({segment.equation, segment.run, segment.start + k, std::min(block, segment.size - k)});
-  }
-  return blocks;
-}
-
-Eigen::MatrixXd random_signs(std::size_t blocks) {
-  std::mt19937 random(20140501);  // NOLINT(bugprone-random-generator-seed): the same answer for the same input
-  Eigen::MatrixXd signs(static_cast<Index>(blocks), surrogates);
-  for (Index s = 0; s < surrogates; ++s)
-    for (Index b = 0; b < signs.rows(); ++b) signs(b, s) = (random() & 1U) != 0U ? 1.0 : -1.0;
-  return signs;
-}
-
-struct Task {
-  const Hypothesis* hypothesis;
-  const std::vector<double>* shape;
-  double reach;    ///< of the step that its columns are taken over
-  bool by_chance;  ///< its gains on surrogates are asked for too
-};
-
-std::vector<double> with_shape(const Hypothesis& hypothesis, const std::vector<double>& shape) {
-  std::vector<double> q(hypothesis.parameters.size(), 0.0);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < q.size(); ++i)
-    if (hypothesis.parameters[i].kind != Kind::amplitude) q[i] = shape[next++];
-  return q;
-}
 
 /// Power of the whitened residual at a frequency, over all runs.
 double line_power(const InverseModel& model, const Vector& white, double frequency_Hz) {
@@ -138,132 +100,6 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
 }
 
 namespace {
-
-/// What a hypothesis of one shape does to the whitened residual for each of its amplitudes, and what they are by least
-/// squares with the model's own numbers free.
-struct Columns {
-  Eigen::MatrixXd white, on_q;  ///< all rows; along the numbers' directions, over the rows that it touches
-  Eigen::MatrixXd gram;         ///< what the numbers cannot do
-  Eigen::LDLT<Eigen::MatrixXd> solver;
-  Vector amplitude;
-  double touched = 0.0;  ///< squares of the residual's rows that it touches
-  bool any = false;
-
-  /// What it explains of each row, the numbers refitted.
-  [[nodiscard]] Vector explained(const Eigen::MatrixXd& q) const {
-    return white * amplitude - q.topRows(white.rows()) * (on_q * amplitude);
-  }
-};
-
-/// Hypotheses one at a time against one residual.
-class Asking {
- public:
-  Asking(const Fitter& fitter, const Fit& fit, const Whitening& whitening)
-      : model_(fitter.model()),
-        fit_(fit),
-        whitening_(whitening),
-        q_(orthonormal(fit.jacobian)),
-        left_(fit.white - q_ * (q_.transpose() * fit.white)),
-        contacts_(model_.contacts(fit.model.axis, fit.model.effects)),
-        prepared_(model_.prepared(fit.model.axis, fit.model.effects, contacts_)),
-        blocks_(blocks_of(model_)),
-        signs_(random_signs(blocks_.size())) {}
-
-  [[nodiscard]] const Vector& left() const { return left_; }
-  /// What is left of each row without what such a hypothesis explains.
-  [[nodiscard]] Vector without(const Columns& c) const { return left_.head(model_.rows()) - c.explained(q_); }
-
-  [[nodiscard]] Columns columns_of(const Task& task) const {
-    const Hypothesis& hypothesis = *task.hypothesis;
-    const std::vector<double> at = with_shape(hypothesis, *task.shape);
-    const auto amplitudes = amplitudes_of(hypothesis);
-    const auto count = static_cast<Index>(amplitudes.size());
-    Columns c;
-    c.white.resize(model_.rows(), count);
-    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
-      Active near{&hypothesis, at};
-      const double step = task.reach * hypothesis.parameters[amplitudes[a]].step;
-      near.q[amplitudes[a]] = step;
-      c.white.col(static_cast<Index>(a)) = fall_of(near) / step;
-    }
-    whitening_.apply(model_, c.white);
-    // only the rows of the equations that it touches count; what the model's own numbers can do comes off
-    c.on_q = Eigen::MatrixXd::Zero(q_.cols(), count);
-    for (const auto& s : model_.segments()) {
-      if (s.size == 0 || !(c.white.middleRows(s.start, s.size).cwiseAbs().maxCoeff() > 0.0)) continue;
-      c.touched += left_.segment(s.start, s.size).squaredNorm();
-      c.on_q.noalias() += q_.middleRows(s.start, s.size).transpose() * c.white.middleRows(s.start, s.size);
-    }
-    const Vector before = c.white.colwise().squaredNorm();
-    c.any = before.maxCoeff() > 0.0;
-    if (!c.any) return c;
-    c.gram = c.white.transpose() * c.white - c.on_q.transpose() * c.on_q;
-    // where only the numbers' tolerance stands against it a ten-millionth may be left; less is rounding of the projection
-    for (Index k = 0; k < count; ++k)
-      if (!(c.gram(k, k) > 1e-11 * before[k])) c.gram(k, k) += 1e6 * (before[k] + 1e-30);  // nothing the model could not do
-    c.solver.compute(c.gram);
-    c.amplitude = c.solver.solve(c.white.transpose() * left_.head(model_.rows()));
-    return c;
-  }
-
-  [[nodiscard]] Score score_of(const Task& task, const Columns& c) const {
-    const Hypothesis& hypothesis = *task.hypothesis;
-    Score score{&hypothesis, with_shape(hypothesis, *task.shape), c.touched, 0.0, 0.0, {}};
-    if (!c.any) return score;
-    score.gain = c.amplitude.dot(c.white.transpose() * left_.head(model_.rows()));
-    // the wrong sign, or beyond what can be: what the nearest possible value brings
-    Vector reachable = c.amplitude;
-    const auto amplitudes = amplitudes_of(hypothesis);
-    for (std::size_t a = 0; a < amplitudes.size(); ++a) {
-      double& value = reachable[static_cast<Index>(a)];
-      const auto& p = hypothesis.parameters[amplitudes[a]];
-      value = std::clamp(value, p.lowest, p.highest);
-      score.q[amplitudes[a]] = value;
-    }
-    const Vector off = reachable - c.amplitude;
-    score.gain = std::max(0.0, score.gain - off.dot(c.gram * off));
-    if (!possible({&hypothesis, score.q}, fit_.model.axis)) score.gain = 0.0;
-    return score;
-  }
-
-  /// Its gains on surrogates of a residual: blocks whose signs are drawn at random.
-  [[nodiscard]] Eigen::RowVectorXd by_chance(const Columns& c, const Vector& residual) const {
-    if (!c.any) return Eigen::RowVectorXd::Zero(surrogates);
-    Eigen::MatrixXd by_block(c.white.cols(), static_cast<Index>(blocks_.size()));
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const auto& s = blocks_[b];
-      const auto rest = residual.segment(s.start, s.size);
-      by_block.col(static_cast<Index>(b)) = c.white.middleRows(s.start, s.size).transpose() * rest -
-                                            c.on_q.transpose() * (q_.middleRows(s.start, s.size).transpose() * rest);
-    }
-    const Eigen::MatrixXd drawn = by_block * signs_;
-    return drawn.cwiseProduct(c.solver.solve(drawn)).colwise().sum();
-  }
-
- private:
-  static std::vector<std::size_t> amplitudes_of(const Hypothesis& hypothesis) {
-    std::vector<std::size_t> amplitudes;
-    for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i)
-      if (hypothesis.parameters[i].kind == Kind::amplitude) amplitudes.push_back(i);
-    return amplitudes;
-  }
-  [[nodiscard]] Vector fall_of(const Active& more) const {
-    if (!more.hypothesis->friction) return model_.fall(fit_.model.axis, prepared_, fit_.residual, more);
-    auto effects = fit_.model.effects;
-    effects.push_back(more);
-    return fit_.residual - model_.residual(fit_.model.axis, effects);
-  }
-
-  const InverseModel& model_;
-  const Fit& fit_;
-  const Whitening& whitening_;
-  const Eigen::MatrixXd q_;  ///< directions of the model's own numbers
-  const Vector left_;
-  const std::vector<ContactForces> contacts_;
-  const InverseModel::Prepared prepared_;
-  const std::vector<Segment> blocks_;
-  const Eigen::MatrixXd signs_;
-};
 
 std::vector<Task> tasks_of(const std::vector<const Hypothesis*>& asked, bool against_chance, const Fit& fit,
                            const std::vector<std::vector<std::vector<double>>>& grids) {

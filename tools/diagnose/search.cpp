@@ -8,10 +8,11 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/preferred.h"
+#include "tools/diagnose/whole_number.h"
+#include "tools/diagnose/wider_stribeck.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -82,23 +83,12 @@ class Search {
     return lacking_.emplace(effect, fitter_.fit(without(fit_.model, effect), whitening_, iterations)).first->second;
   }
 
-  /// A Stribeck velocity that is several times off has an optimum of its own, which no small step finds.
   void try_wider_stribeck() {
-    constexpr double worth = 30.0;
-    std::optional<Fit> best;
-    for (const double factor : {4.0, 16.0}) {
-      Candidate start = fit_.model;
-      for (auto* contact : {&start.axis.ball_screw, &start.axis.guide}) {
-        contact->stribeck_m_per_s.pos *= factor;
-        contact->stribeck_m_per_s.neg *= factor;
-      }
-      Fit other = fitter_.fit(start, whitening_, 2 * iterations);
-      if (other.cost < fit_.cost - worth && (!best || other.cost < best->cost)) best = std::move(other);
-    }
-    if (!best) return;
+    const auto wider = with_wider_stribeck(fitter_, fit_, whitening_, 2 * iterations);
+    if (!wider) return;
     progress_(
-        fmt::format("a Stribeck velocity of {:.2g} m/s explains more", best->model.axis.ball_screw.stribeck_m_per_s.pos));
-    take(best->model, rounds);
+        fmt::format("a Stribeck velocity of {:.2g} m/s explains more", wider->model.axis.ball_screw.stribeck_m_per_s.pos));
+    take(wider->model, rounds);
   }
 
   /// What strikes once, harder than everything else pushes, bends all numbers until it no longer shows as itself: it is
@@ -122,26 +112,6 @@ class Search {
     take(struck.model, rounds);
   }
 
-  /// With it; where its whole number does not hold on stretches that it was not fitted to, by the one near it that does
-  /// best.
-  Fit fitted(Score score) {
-    constexpr double holds = 0.5;
-    const auto refit = [&] {
-      return fit_with(fitter_, fit_.model, score, fit_.model.effects.size(), whitening_, iterations);
-    };
-    const auto foretold = [&](const Fit& fit) {
-      const auto verdict = judged(fitter_, fit, fit_, *score.hypothesis, bar_);
-      return on_unseen(fitter_.model(), fit, fit_, *score.hypothesis, verdict, bar_).gain;
-    };
-    Fit best = refit();
-    if (score.also.empty() || foretold(best) > holds * (fit_.cost - best.cost)) return best;
-    for (const auto& q : std::exchange(score.also, {})) {
-      score.q = q;
-      if (Fit other = refit(); foretold(other) > foretold(best)) best = std::move(other);
-    }
-    return best;
-  }
-
   /// The best of the hypotheses that pass the bar, refitted jointly.
   bool add_best() {
     std::vector<Tried> enough;
@@ -158,7 +128,7 @@ class Search {
       if (score.gain < bar_.gain || by_chance_alone || dropped_.contains(score.hypothesis)) continue;
       ++tried;
       if (tried > refitted && (!enough.empty() || tried > refitted_for_one)) break;
-      Fit fit = fitted(score);
+      Fit fit = fit_with_whole_number(fitter_, fit_, score, whitening_, bar_, iterations);
       if (!possible(fit.model.effects.back(), fit.model.axis)) {
         progress_(fmt::format("  {}: no such size", in_words(fit.model.effects.back(), fit.model.axis)));
         continue;

@@ -10,8 +10,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int suspect_iterations = 6;
-constexpr std::size_t most_asked = 4;
+constexpr int iterations = 6;
+constexpr std::size_t asked = 4;
 constexpr double share_of_strength = 0.7;  // of what it takes to be named
 
 bool can_be_suspected(const Score& score, const Screen& left, const Bar& bar) {
@@ -36,8 +36,8 @@ std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, c
   std::size_t tried = 0;
   for (const auto& score : found.last.scores) {
     if (!can_be_suspected(score, found.last, bar)) continue;
-    if (++tried > most_asked) break;
-    const Fit with = fit_with(fitter, fit.model, score, fit.model.effects.size(), found.whitening, suspect_iterations);
+    if (++tried > asked) break;
+    const Fit with = fit_with(fitter, fit.model, score, fit.model.effects.size(), found.whitening, iterations);
     const Active& active = with.model.effects.back();
     const auto& h = *score.hypothesis;
     if (!possible(active, with.model.axis) || !worth_naming(active)) continue;

@@ -152,6 +152,23 @@ TEST(Dynamics, PreslidingMemoryFollowsItsElements) {
   }
 }
 
+/// A part that the table drags along by a spring and a damper, walked in half steps of a microsecond.
+TEST(Dynamics, LearnedModeSwingsAsAPartOnASpring) {
+  constexpr double mass_kg = 20.0, frequency_Hz = 12.0, damping_ratio = 0.05, w = 2.0 * test::pi * frequency_Hz;
+  FeedAxis axis = axis_with({{"learned_mode", {mass_kg, frequency_Hz, damping_ratio}, {}}}, substeps(20));
+  double last_s = 0.0, ahead_m = 0.0, speed = 0.0, most_N = 0.0;
+  const auto load = [&](double t, double, double v) {
+    const double acceleration = w * (w * ahead_m + 2.0 * damping_ratio * (v - speed));
+    ahead_m += (t - last_s) * (v - speed);
+    speed += (t - last_s) * acceleration;
+    last_s = t;
+    most_N = std::max(most_N, std::abs(mass_kg * acceleration));
+    return mass_kg * acceleration;
+  };
+  EXPECT_LT(distance_m(axis, 400, held_Nm, load), 2.0 * count_m);
+  EXPECT_GT(most_N, 10.0);
+}
+
 /// Two bodies and a spring with play, by Runge and Kutta in steps of 0.5 us.
 struct ReferencePair {
   double gap_m, stiffness, damping;

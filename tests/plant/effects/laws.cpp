@@ -67,6 +67,13 @@ TEST(Laws, ForceAtSteadySpeed) {
     double cutting_N;
     std::function<double(const Nominal&, double v, const Steady&)> expected_N;
   };
+  const auto loaded_by = [](double guide_share) {
+    return [=](const Nominal& n, double v, const Steady&) {
+      const auto p = source_axis();
+      const double coulomb = v > 0.0 ? p.ball_screw.coulomb_N.pos : p.ball_screw.coulomb_N.neg;
+      return n.all_N() + 400.0 + 0.15 * std::abs(400.0 + guide_share * n.guide_N) / coulomb * n.screw_sliding_N;
+    };
+  };
   const std::vector<Row> rows{
       {{"gravity", {35.0}, {}}, 0.0, [](const Nominal& n, double, const Steady&) { return n.all_N() + 35.0; }},
       {{"quadratic_drag", {2000.0}, {}},
@@ -90,20 +97,8 @@ TEST(Laws, ForceAtSteadySpeed) {
       {{"position_friction", {0.8}, {}},
        0.0,
        [](const Nominal& n, double, const Steady& s) { return n.all_N() + 0.8 * s.position_m / 10.0 * n.screw_sliding_N; }},
-      {{"load_dependent_friction", {0.15, 0.0}, {}},
-       400.0,
-       [](const Nominal& n, double v, const Steady&) {
-         const auto p = source_axis();
-         const double coulomb = v > 0.0 ? p.ball_screw.coulomb_N.pos : p.ball_screw.coulomb_N.neg;
-         return n.all_N() + 400.0 + 0.15 * 400.0 / coulomb * n.screw_sliding_N;
-       }},
-      {{"load_dependent_friction", {0.15, 1.0}, {}},
-       400.0,
-       [](const Nominal& n, double v, const Steady&) {
-         const auto p = source_axis();
-         const double coulomb = v > 0.0 ? p.ball_screw.coulomb_N.pos : p.ball_screw.coulomb_N.neg;
-         return n.all_N() + 400.0 + 0.15 * std::abs(400.0 + n.guide_N) / coulomb * n.screw_sliding_N;
-       }},
+      {{"load_dependent_friction", {0.15, 0.0}, {}}, 400.0, loaded_by(0.0)},
+      {{"load_dependent_friction", {0.15, 1.0}, {}}, 400.0, loaded_by(1.0)},
       {{"direction_dependent_friction", {12.0, 200.0}, {}},
        0.0,
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + 6.0 + 100.0 * std::abs(v); }},

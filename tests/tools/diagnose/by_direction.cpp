@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/made_case.h"
+#include "tests/tools/diagnose/fitted_runs.h"
 #include "tools/diagnose/judge.h"
 
 namespace feedtwin {
@@ -29,11 +30,8 @@ std::optional<NamedEffect> told(const plant::AxisParameters& truth, const plant:
     made.settings.speed_m_per_s = 0.08, made.settings.amplitude_m = 0.02;
     runs.push_back(tests::make_recording(truth, made));
   }
-  const InverseModel model(make_tracks(runs, nominal), nominal);
-  const Fitter fitter(model, nominal);
-  Whitening whitening = fitter.colour_of(model.residual(nominal, {}));
-  const Fit fit = fitter.fit_with_colour({nominal, {}}, whitening, 3, 6);
-  return difference_by_direction(fitter, fit, robust_covariance(model, fit));
+  const tests::FittedRuns fitted(runs, nominal);
+  return difference_by_direction(fitted.fitter, fitted.fit, robust_covariance(fitted.model, fitted.fit));
 }
 
 TEST(ByDirection, ADifferenceIsToldToWhoHasOneNumberForBoth) {

@@ -13,6 +13,7 @@
 #include "plant/effects/registry.h"
 #include "tests/support/made_case.h"
 #include "tools/diagnose/fit.h"
+#include "tools/diagnose/screen.h"
 
 namespace feedtwin {
 namespace {
@@ -175,6 +176,30 @@ TEST(LoadDependentFriction, RisesWithTheWeightAsWellAsWithTheMass) {
   const Candidate fitted = Fitter(model, nominal).fit(start, whitening_of(true, false), 10).model;
   EXPECT_NEAR(fitted.effects[0].q[0], weight_N, 0.03 * std::abs(weight_N));
   EXPECT_NEAR(fitted.effects[1].q[0], per_load, 0.03 * per_load);
+}
+
+TEST(LocalFriction, IsToldWhereItIs) {
+  const auto& spot = hypothesis("local_friction");
+  EXPECT_EQ(component_of({&spot, {15.0, 0.004, 0.002, 0.0}}), "guide");
+  EXPECT_EQ(component_of({&spot, {15.0, 0.004, 0.002, 1.0}}), "ball_screw");
+  EXPECT_EQ(component_of({&hypothesis("cogging"), {0.01, 0.0, 8.0}}), "motor");
+}
+
+// A force sensor at the table feels a spot on the guide and none on the screw: both are asked for where there is one.
+TEST(LocalFriction, IsFoundOnTheScrewWhereAForceSensorTells) {
+  const auto nominal = plant::source_axis();
+  auto truth = nominal;
+  for (const double on_screw : {0.0, 1.0}) {
+    truth.effects = {tests::effect(
+        "local_friction", {{"height_N", 12.0}, {"centre_m", 0.004}, {"half_width_m", 0.003}, {"on_screw", on_screw}})};
+    const InverseModel model(make_tracks(runs_of(truth, true, false), nominal), nominal);
+    const Fitter fitter(model, nominal);
+    const auto& colour = whitening_of(true, false);
+    const Fit fit = fitter.fit({nominal, {}}, colour, 10);
+    const auto scores = scores_of({&hypothesis("local_friction")}, fitter, fit, colour);
+    ASSERT_EQ(scores.size(), 1U);
+    EXPECT_EQ(scores.front().q[3], on_screw);
+  }
 }
 
 TEST(SublinearViscous, IsBelowOneAndToldFromOne) {

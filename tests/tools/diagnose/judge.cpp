@@ -84,6 +84,27 @@ TEST_F(Judged, AHypothesisMayAskForMoreThanTheOthers) {
   }
 }
 
+// All that an amplitude brings is one moment's, which nothing else foretells; elsewhere it brings next to nothing.
+TEST_F(Judged, AnAmplitudeOfOneMomentDoesNotHold) {
+  for (const bool everywhere : {false, true}) {
+    Fit with, without;
+    with.jacobian = Eigen::MatrixXd::Zero(model.rows(), 1);
+    const Index moment = 40;
+    for (Index k = 0; k < model.rows(); ++k)
+      with.jacobian(k, 0) = everywhere ? 1.0 : k < moment ? 1.0 : k % 50 == 0 ? 0.02 : 0.0;
+    without.jacobian = Eigen::MatrixXd::Zero(model.rows(), 0);
+    without.white = with.jacobian.col(0) * 4.0;
+    if (!everywhere) without.white.tail(model.rows() - moment) *= 20.0;  // elsewhere it would be another size
+    const double least_squares = with.jacobian.col(0).dot(without.white) / with.jacobian.col(0).squaredNorm();
+    with.white = without.white - least_squares * with.jacobian.col(0);
+    without.cost = without.white.squaredNorm(), with.cost = with.white.squaredNorm();
+    Verdict verdict;
+    verdict.gain = without.cost - with.cost;
+    const Unseen unseen = on_unseen(model, with, without, hypothesis("regeneration_clipped"), verdict, Bar{});
+    EXPECT_EQ(unseen.holds, everywhere);
+  }
+}
+
 TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
   const Whitening whitening = Whitening::estimate(model, model.residual(axis, {}));
   Candidate start{axis, {}};

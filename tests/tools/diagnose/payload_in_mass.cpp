@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/made_case.h"
+#include "tests/tools/diagnose/fitted_runs.h"
 #include "tools/diagnose/judge.h"
 
 namespace feedtwin {
@@ -20,12 +21,8 @@ std::optional<NamedEffect> told(double factor, bool sensors) {
       .motion = "sine", .duration_s = 6.0, .sensors = sensors, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
   made.settings.speed_m_per_s = 0.15, made.settings.amplitude_m = 0.01;
   const std::vector runs{tests::make_recording(truth, made)};
-  const auto nominal = plant::source_axis();
-  const InverseModel model(make_tracks(runs, nominal), nominal);
-  const Fitter fitter(model, nominal);
-  Whitening whitening = fitter.colour_of(model.residual(nominal, {}));
-  const Fit fit = fitter.fit_with_colour({nominal, {}}, whitening, 3, 6);
-  return payload_in_mass(fitter, fit, robust_covariance(model, fit));
+  const tests::FittedRuns fitted(runs, plant::source_axis());
+  return payload_in_mass(fitted.fitter, fitted.fit, robust_covariance(fitted.model, fitted.fit));
 }
 
 TEST(PayloadInMass, IsToldWithItsSizeWhereTheForceIsRecorded) {

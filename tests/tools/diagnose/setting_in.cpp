@@ -15,7 +15,7 @@ namespace {
 
 using namespace tools::diagnosis;
 
-plant::AxisParameters axis_set_in_over(double distance_m) {
+plant::AxisParameters axis_over(double distance_m) {
   auto axis = plant::source_axis();
   if (distance_m > 0.0) axis.effects = {tests::effect("motor_presliding", {{"distance_m", distance_m}})};
   return axis;
@@ -46,15 +46,15 @@ struct Made {
   }
 };
 
-struct SettingIn {
+struct Asked {
   double in_fit_m, in_recalibrated_m;
   std::optional<Ruling> settled;
 };
 
-SettingIn asked_of(double truth_m, bool torque_sensor) {
+Asked asked_of(double truth_m, bool torque_sensor) {
   auto nominal = plant::source_axis();
   nominal.motor.coulomb_N.pos *= 0.95;
-  const Made made(axis_set_in_over(truth_m), nominal, torque_sensor);
+  const Made made(axis_over(truth_m), nominal, torque_sensor);
   SearchResult found;
   found.whitening = made.whitening;
   Fit fit = made.fitter.fit_with_colour({nominal, {}}, found.whitening, 2, 6);
@@ -85,7 +85,7 @@ TEST(AskHowMotorSetsIn, NotWhereTheCommandAloneShowsIt) {
 
 // The numbers of an explanation beside it are taken over, not how its motor sets in.
 TEST(AskHowMotorSetsIn, WhatIsGivenOutlivesTheNumbersOfAnother) {
-  const auto truth = axis_set_in_over(1e-6);
+  const auto truth = axis_over(1e-6);
   const Made made(truth, truth);
   Candidate far_off{truth, {}}, at_once{truth, {}};
   far_off.axis.ball_screw.coulomb_N = {60.0, 55.0};

@@ -14,7 +14,7 @@ constexpr int iterations = 6;
 /// What it takes to stay, beside what the effect's own numbers cost. Where the closed loop is indifferent a name stays that
 /// the inverse model asks for and unseen folds bear out, if it keeps its size (friction along the stroke of the EMPS axis);
 /// not one that rests on single events (a stop of a null: 3).
-double told_from_nats(const Found& named) {
+double least_nats(const Found& named) {
   const Hypothesis& h = *named.effect.hypothesis;
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, h.least_missed_nats);
 }
@@ -42,14 +42,14 @@ class Asked {
       const auto* hypothesis = fit.model.effects[e].hypothesis;
       auto* named = found.of(hypothesis);
       if (named == nullptr || !worth_naming(fit.model.effects[e])) continue;
-      if (named->missed_nats > surely_missed * std::max(100.0, told_from_nats(*named))) continue;
+      if (named->missed_nats > surely_missed * std::max(100.0, least_nats(*named))) continue;
       Ruling rest = without_it(found, fit, settled, e);
-      if (settled.value - rest.value < std::max(doubtful_nats, told_from_nats(*named))) asked_fairly(settled, rest, e);
+      if (settled.value - rest.value < std::max(doubtful_nats, least_nats(*named))) asked_fairly(settled, rest, e);
       named->missed_nats = settled.value - rest.value;
       progress_(fmt::format("closed loop, all numbers free, without {}: {:+.0f} nats", hypothesis->id, -named->missed_nats));
       const Active& now = settled.model.effects[e];
       const bool cannot_be = !possible(now, settled.model.axis) || (named->by_runs_alone && !runs_may_tell(now));
-      const double short_of_nats = cannot_be ? 1e300 : told_from_nats(*named) - named->missed_nats;
+      const double short_of_nats = cannot_be ? 1e300 : least_nats(*named) - named->missed_nats;
       if (short_of_nats > 0.0 && (!least || short_of_nats > least->short_of_nats))
         least = Lacking{hypothesis, std::move(rest), short_of_nats, cannot_be};
     }

@@ -2,16 +2,12 @@
 
 #include <cmath>
 
+#include "plant/steady_friction.h"
 #include "tools/diagnose/hypotheses/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
-
-double steady_N(const plant::LugreParameters& p, bool forth, double speed) {
-  const double coulomb = forth ? p.coulomb_N.pos : p.coulomb_N.neg, most = forth ? p.static_N.pos : p.static_N.neg;
-  return coulomb + (most - coulomb) * std::exp(-speed / (forth ? p.stribeck_m_per_s.pos : p.stribeck_m_per_s.neg));
-}
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
@@ -26,7 +22,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
     const bool forth = v > 0.0;
     const double mean = speed + (film - speed) * q[0] / track.sample_s * (1.0 - kept);  // over the sample
     film = speed + (film - speed) * kept;
-    factor[k] = steady_N(screw, forth, mean) / steady_N(screw, forth, speed);
+    factor[k] = plant::stribeck_force_N(screw, forth, mean) / plant::stribeck_force_N(screw, forth, speed);
     const double late = (forth ? 1.0 : -1.0) * (mean - speed) * speed / (speed + small_m_per_s);
     screw_N[k] = (forth ? screw.viscous_Ns_per_m.pos : screw.viscous_Ns_per_m.neg) * late;
     guide_N[k] = (forth ? guide.viscous_Ns_per_m.pos : guide.viscous_Ns_per_m.neg) * late;

@@ -3,20 +3,12 @@
 
 #include <cmath>
 
+#include "plant/steady_friction.h"
 #include "tools/diagnose/hypotheses/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
-
-/// The guide's friction once its bristles have settled, as the plant's term has it.
-double sliding_N(const plant::LugreParameters& guide, double v) {
-  const auto side = v > 0.0 ? &plant::Directional::pos : &plant::Directional::neg;
-  const double stiction = guide.static_N.*side - guide.coulomb_N.*side;
-  const double size = guide.coulomb_N.*side + stiction * std::exp(-std::abs(v) / (guide.stribeck_m_per_s.*side)) +
-                      guide.viscous_Ns_per_m.*side * std::abs(v);
-  return v > 0.0 ? size : -size;
-}
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
@@ -27,7 +19,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   for (Index k = 1; k < track.size; ++k) {  // from the smoothed motion: its noise would be rectified
     const double change = track.table_velocity_m_per_s[k] - track.table_velocity_m_per_s[k - 1];
     const double load_N = loads.guide_N.size() > 0 ? loads.guide_N[k] : 0.0;
-    const double guide_N = q[1] > 0.0 ? q[1] * sliding_N(view.axis.guide, track.table_velocity_m_per_s[k]) : 0.0;
+    const double guide_N = q[1] > 0.0 ? q[1] * plant::steady_force_N(view.axis.guide, track.table_velocity_m_per_s[k]) : 0.0;
     const double nut_N = std::abs(mass_kg * change / track.sample_s + load_N + guide_N);
     factor[k] += q[0] * nut_N / (track.velocity_m_per_s[k] > 0.0 ? coulomb.pos : coulomb.neg);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/steady_friction.h"
 #include "tools/identify/stages/line_search.h"
 
 namespace feedtwin::tools {
@@ -14,9 +15,8 @@ double of_direction(const plant::Directional& value, double v) {
   return v > 0.0 ? value.pos : value.neg;
 }
 
-double steady_force_N(const plant::LugreParameters& p, double v) {
-  const double coulomb = of_direction(p.coulomb_N, v);
-  return coulomb + (of_direction(p.static_N, v) - coulomb) * std::exp(-std::abs(v) / of_direction(p.stribeck_m_per_s, v));
+double sliding_N(const plant::LugreParameters& p, double v) {
+  return plant::stribeck_force_N(p, v > 0.0, std::abs(v));
 }
 
 }  // namespace
@@ -39,12 +39,12 @@ PreparedRun prepare(const ComponentForces& run, std::span<const double> force_N,
   const std::size_t n = force_N.empty() ? 0 : force_N.size() - 2;
   for (std::size_t i = 0; i < n; ++i) {
     const double travel_m = run.position_m[i + 1] - run.position_m[i], v_tick = travel_m / run.sample_s;
-    const double g_tick = steady_force_N(friction, v_tick), v = run.velocity_m_per_s[i];
+    const double g_tick = sliding_N(friction, v_tick), v = run.velocity_m_per_s[i];
     prepared.travel_m.push_back(travel_m);
     prepared.travel_per_force_m_per_N.push_back(std::abs(travel_m) / g_tick);
     prepared.direction_force_N.push_back(travel_m < 0.0 ? -g_tick : g_tick);
     prepared.velocity.push_back(v);
-    prepared.rate_per_force.push_back(std::abs(v) / steady_force_N(friction, v));
+    prepared.rate_per_force.push_back(std::abs(v) / sliding_N(friction, v));
     prepared.bristle_part_N.push_back(force_N[i] - mass_kg * run.acceleration_m_per_s2[i] -
                                       of_direction(friction.viscous_Ns_per_m, v) * v);
     prepared.counts.push_back(run.since_reversal_m[i] < reach_m);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "plant/parameter_table.h"
+#include "plant/steady_friction.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -32,16 +33,10 @@ Figure loss_figure(const ElectricalLossFit& fit, const plant::AxisParameters& ax
           {{"meter's windows, Eq. 11", fit.velocity_m_per_s, fit.measured_W, true}, curve}};
 }
 
-double steady_N(const plant::LugreParameters& p, double plant::Directional::* side, double speed) {
-  const double coulomb = p.coulomb_N.*side, rise = p.static_N.*side - coulomb;
-  return coulomb + rise * std::exp(-speed / (p.stribeck_m_per_s.*side)) + p.viscous_Ns_per_m.*side * speed;
-}
-
 Figure stribeck_figure(const ContactStages& stages, const plant::LugreParameters& friction) {
   Figure figure{"Stribeck curve: " + stages.component, {"velocity", "m/s"}, {"friction", "N"}, {}};
   for (const bool positive : {true, false}) {
     const auto& curve = positive ? stages.curve_pos : stages.curve_neg;
-    const auto side = positive ? &plant::Directional::pos : &plant::Directional::neg;
     const double sign = positive ? 1.0 : -1.0;
     FigureSeries points{positive ? "measured, positive" : "measured, negative", {}, {}, true};
     FigureSeries line{positive ? "identified, positive" : "identified, negative", {}, {}};
@@ -49,7 +44,7 @@ Figure stribeck_figure(const ContactStages& stages, const plant::LugreParameters
       points.x.push_back(sign * curve.speed_m_per_s[i]);
       points.y.push_back(sign * curve.force_N[i]);
       line.x.push_back(points.x.back());
-      line.y.push_back(sign * steady_N(friction, side, curve.speed_m_per_s[i]));
+      line.y.push_back(plant::steady_force_N(friction, points.x.back()));
     }
     figure.series.push_back(std::move(points));
     figure.series.push_back(std::move(line));

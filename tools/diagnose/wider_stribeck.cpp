@@ -1,0 +1,20 @@
+#include "tools/diagnose/wider_stribeck.h"
+
+namespace feedtwin::tools::diagnosis {
+
+std::optional<Fit> with_wider_stribeck(const Fitter& fitter, const Fit& fit, const Whitening& whitening, int iterations) {
+  constexpr double worth = 30.0;  // of the cost
+  std::optional<Fit> best;
+  for (const double factor : {4.0, 16.0}) {
+    Candidate start = fit.model;
+    for (auto* contact : {&start.axis.ball_screw, &start.axis.guide}) {
+      contact->stribeck_m_per_s.pos *= factor;
+      contact->stribeck_m_per_s.neg *= factor;
+    }
+    Fit other = fitter.fit(start, whitening, iterations);
+    if (other.cost < fit.cost - worth && (!best || other.cost < best->cost)) best = std::move(other);
+  }
+  return best;
+}
+
+}  // namespace feedtwin::tools::diagnosis
