@@ -220,6 +220,7 @@ class Diagnosing {
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
     result_.holdout_inverse = figures(held_out, nominal, recalibrated_only, told_unseen);
+    result_.force_error = force_errors(held_out, nominal, recalibrated_only, told_unseen);
     result_.holdout = figures(simulated, data_.axis, extended(recalibrated_only), updated_unseen);
     std::vector<const Hypothesis*> named;
     for (const auto& effect : result_.effects) named.push_back(effect.hypothesis);

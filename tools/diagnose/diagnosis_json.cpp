@@ -94,6 +94,9 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   if (diagnosis.motor_presliding_m > 0.0) out["motor_presliding_m"] = diagnosis.motor_presliding_m;
   out["holdout"] = of(diagnosis.holdout);
   out["holdout_inverse_model"] = of(diagnosis.holdout_inverse);
+  out["force_error_inverse_model"] = {{"before", diagnosis.force_error.before},
+                                      {"recalibrated", diagnosis.force_error.recalibrated},
+                                      {"after", diagnosis.force_error.after}};
   out["energy"] = json::object();
   for (const auto& [component, before] : diagnosis.energy_before)
     out["energy"][component] = {{"before_J", before}, {"after_J", diagnosis.energy_after.at(component)}};

@@ -1,8 +1,11 @@
 #include "tools/diagnose/figures.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "plant/axis_model.h"
+#include "tools/identify/zero_phase_filter.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -55,7 +58,7 @@ double spread(const Vector& y) {
 }  // namespace
 
 Nrmse nrmse(const InverseModel& model, const Candidate& at) {
-  const Vector residual = model.residual(at.axis, at.effects);
+  const Vector residual = model.unweighted_residual(at.axis, at.effects);
   Nrmse found;
   for (const auto& channel : channels_of(model)) {
     const Vector r = summed(model, residual, channel);
@@ -82,6 +85,24 @@ Nrmse noise_floor(const InverseModel& model, const Candidate& at) {
     if (scale > 0.0) found[channel.name] = std::sqrt(variance) / scale;
   }
   return found;
+}
+
+double relative_force_error(const InverseModel& model, const Candidate& at) {
+  constexpr double kept = 0.8, band_Hz = 40.0;  // of the new Nyquist frequency
+  const auto residuals = model.force_residuals_N(at.axis, at.effects);
+  double off = 0.0, all = 0.0;
+  for (std::size_t run = 0; run < residuals.size(); ++run) {
+    const Track& track = model.tracks()[run];
+    const int factor = std::max(1, static_cast<int>(std::round(kept * 0.5 / track.sample_s / band_Hz)));
+    const auto square = [&](const Vector& force_N) {
+      const auto inner = force_N.segment(InverseModel::margin, track.size - 2 * InverseModel::margin);
+      const auto rows = decimated({inner.data(), static_cast<std::size_t>(inner.size())}, factor);
+      return std::inner_product(rows.begin(), rows.end(), rows.begin(), 0.0);
+    };
+    off += square(residuals[run]);
+    all += square(track.command_N);
+  }
+  return all > 0.0 ? std::sqrt(off / all) : 0.0;
 }
 
 Energy energy(const InverseModel& model, const Candidate& at) {

@@ -16,6 +16,12 @@ std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Ca
   return out;
 }
 
+ChannelFigures force_errors(const InverseModel& runs, const Candidate& nominal, const Candidate& recalibrated_only,
+                            const Candidate& final) {
+  return {relative_force_error(runs, nominal), relative_force_error(runs, recalibrated_only),
+          relative_force_error(runs, final)};
+}
+
 std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const AxisByRun& nominal,
                                               const AxisByRun& recalibrated_only, const AxisByRun& final) {
   std::map<std::string, ChannelFigures> out;

@@ -10,6 +10,10 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Candidate& nominal,
                                                             const Candidate& recalibrated_only, const Candidate& final);
 
+/// The inverse model's force error in the measure of published fits; no floor.
+[[nodiscard]] ChannelFigures force_errors(const InverseModel& runs, const Candidate& nominal,
+                                          const Candidate& recalibrated_only, const Candidate& final);
+
 /// By closed-loop simulation.
 [[nodiscard]] std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const AxisByRun& nominal,
                                                             const AxisByRun& recalibrated_only, const AxisByRun& final);

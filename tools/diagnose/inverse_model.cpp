@@ -137,10 +137,7 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
   if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * step_N;
   if (equation.screw != equation.guide)
     r += (equation.screw ? 1.0 : -1.0) * track.force_jump_share * table_kg * per_mass * step_N;
-  double mass = 0.0, nominal_mass = 0.0;
   if (equation.screw) {
-    mass += screw_kg;
-    nominal_mass += nominal_.ball_screw_inertia_kgm2 * k * k;
     r -= screw_kg * track.acceleration_m_per_s2;
     r -= base.screw_N;
     subtract(r, meant(extra.screw_N));
@@ -148,8 +145,6 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
     if (!equation.guide && extra.force_sensor_N.size() > 0) r += extra.force_sensor_N;
   }
   if (equation.guide) {
-    mass += table_kg;
-    nominal_mass += nominal_.guide_mass_kg;
     // in one equation with the motor both masses must see the same noise, or the quieter ruler draws the mass to itself
     r -= table_kg * (equation.screw || equation.motor ? track.acceleration_m_per_s2 : track.table_acceleration_m_per_s2);
     r -= base.guide_N;
@@ -157,18 +152,12 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
     if (!equation.screw) subtract(r, extra.force_sensor_N);
   }
   if (equation.motor) {
-    mass += motor_kg;
-    nominal_mass += nominal_.motor.inertia_kgm2 * k * k;
     r -= motor_kg * track.acceleration_m_per_s2;
     if (!equation.screw && extra.torque_sensor_N.size() > 0) r += extra.torque_sensor_N;
     subtract(r, meant(extra.motor_N));
     if (extra.drive_N.size() > 0) r += extra.drive_N;
   }
-  // Part of the noise is the measured acceleration's and grows with the mass: without this weight a smaller mass would
-  // shrink it.
-  const double share = acceleration_share_[static_cast<std::size_t>(&equation - equations_.data())];
-  const double weight = 1.0 / std::sqrt(1.0 - share + share * (mass / nominal_mass) * (mass / nominal_mass));
-  if (!equation.motor) return weight * r;
+  if (!equation.motor) return r;
   // the motor's Coulomb friction: as it must be in motion, whatever is needed within its bounds at rest
   const auto slow = [&](Index at) {
     const Index i = std::clamp<Index>(at, 0, track.size - 1);
@@ -178,7 +167,25 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
     const bool at_rest = slow(i) || slow(i - 1) || slow(i + 1);
     r[i] -= at_rest ? std::clamp(r[i], -axis.motor.coulomb_N.neg, axis.motor.coulomb_N.pos) : base.motor_N[i];
   }
-  return weight * r;
+  return r;
+}
+
+double InverseModel::weight(const Equation& equation, const plant::AxisParameters& axis, const Contribution& extra) const {
+  if (equation.power || equation.slip) return 1.0;
+  const auto moved_kg = [&equation](const plant::AxisParameters& of, double table_kg) {
+    const double k = 2.0 * std::numbers::pi / of.axis.lead_m;
+    return (equation.motor * of.motor.inertia_kgm2 + equation.screw * of.ball_screw_inertia_kgm2) * k * k +
+           equation.guide * table_kg;
+  };
+  const double share = acceleration_share_[static_cast<std::size_t>(&equation - equations_.data())];
+  const double heavier =
+      moved_kg(axis, axis.guide_mass_kg + extra.table_mass_kg) / moved_kg(nominal_, nominal_.guide_mass_kg);
+  return 1.0 / std::sqrt(1.0 - share + share * heavier * heavier);
+}
+
+Vector InverseModel::weighted(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
+                              const Contribution& extra, const Baseline& base) const {
+  return weight(equation, axis, extra) * raw_residual(equation, run, axis, extra, base);
 }
 
 InverseModel::Prepared InverseModel::prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,
@@ -195,11 +202,16 @@ Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vect
                               const std::vector<ContactForces>& contacts) const {
   const Prepared model = prepared(axis, effects, contacts);
   Vector rows(rows_);
-  for (const auto& segment : segments_)
-    if (segment.size > 0)
-      store(segment,
-            raw_residual(equations_[segment.equation], segment.run, axis, model.extra[segment.run], model.base[segment.run]),
-            rows);
+  for (const auto& s : segments_)
+    if (s.size > 0) store(s, weighted(equations_[s.equation], s.run, axis, model.extra[s.run], model.base[s.run]), rows);
+  return rows;
+}
+
+Vector InverseModel::unweighted_residual(const plant::AxisParameters& axis, const std::vector<Active>& effects) const {
+  const Prepared model = prepared(axis, effects, contacts(axis, effects));
+  Vector rows(rows_);
+  for (const auto& s : segments_)
+    if (s.size > 0) store(s, raw_residual(equations_[s.equation], s.run, axis, model.extra[s.run], model.base[s.run]), rows);
   return rows;
 }
 
@@ -217,7 +229,7 @@ Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& mod
     for (const auto& segment : segments_) {
       const auto& equation = equations_[segment.equation];
       if (segment.run != run || segment.size == 0 || !touches(alone, equation)) continue;
-      store(segment, raw_residual(equation, run, axis, sum, model.base[run]), rows);
+      store(segment, weighted(equation, run, axis, sum, model.base[run]), rows);
       auto part = rows.segment(segment.start, segment.size);
       part = residual.segment(segment.start, segment.size) - part;
     }
@@ -227,6 +239,19 @@ Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& mod
 
 Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vector<Active>& effects) const {
   return residual(axis, effects, contacts(axis, effects));
+}
+
+std::vector<Vector> InverseModel::force_residuals_N(const plant::AxisParameters& axis,
+                                                    const std::vector<Active>& effects) const {
+  const Prepared model = prepared(axis, effects, contacts(axis, effects));
+  std::vector<Vector> runs;
+  for (std::size_t run = 0; run < tracks_.size(); ++run) {
+    Vector sum = Vector::Zero(tracks_[run].size);
+    for (const auto& equation : equations_)
+      if (!equation.slip && !equation.power) sum += raw_residual(equation, run, axis, model.extra[run], model.base[run]);
+    runs.push_back(std::move(sum));
+  }
+  return runs;
 }
 
 Vector InverseModel::recorded() const {
