@@ -219,15 +219,17 @@ class Diagnosing {
     simulated.take_meter_from(forward_);
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
-    result_.holdout_inverse = figures(held_out, nominal, recalibrated_only, told_unseen);
-    result_.force_error = force_errors(held_out, nominal, recalibrated_only, told_unseen);
+    const Followed as_given = followed(held_out, nominal), as_recalibrated = followed(held_out, recalibrated_only),
+                   as_told = followed(held_out, told_unseen);
+    result_.holdout_inverse = figures(as_given, as_recalibrated, as_told);
+    result_.force_error = force_errors(as_given, as_recalibrated, as_told);
     result_.holdout = figures(simulated, data_.axis, extended(recalibrated_only), updated_unseen);
     std::vector<const Hypothesis*> named;
     for (const auto& effect : result_.effects) named.push_back(effect.hypothesis);
     result_.pictures =
         pictures(simulated, held_out.tracks(), {data_.axis, extended(recalibrated_only), updated_unseen}, named);
-    result_.energy_before = energy(held_out, nominal);
-    result_.energy_after = energy(held_out, told_unseen);
+    result_.energy_before = energy(as_given);
+    result_.energy_after = energy(as_told);
   }
 
   void plan_next() {

@@ -53,7 +53,7 @@ struct Diagnosis {
   std::vector<Recalibrated> recalibrated;
   std::map<std::string, ChannelFigures> holdout;          ///< by closed-loop simulation
   std::map<std::string, ChannelFigures> holdout_inverse;  ///< by the inverse model, through its low pass
-  ChannelFigures force_error;  ///< of the inverse model, |f - m| / |f| below 40 Hz, as fits are published; has no floor
+  ChannelFigures force_error;                             ///< of the inverse model, |f - m| / |f| below 40 Hz; has no floor
   Energy energy_before, energy_after;
   std::vector<Suspect> suspects;  ///< beyond chance, too weak to be named
   NextExperiment next;

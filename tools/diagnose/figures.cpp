@@ -4,17 +4,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "plant/axis_model.h"
+#include "tools/identify/inverse_model.h"
 #include "tools/identify/zero_phase_filter.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-/// The equations that add up to a channel.
-struct Channel {
-  std::string name;
-  bool motor, screw, guide, slip, power;
-};
+/// The sum of some equations, which a channel shows.
+using Channel = Equation;
 
 std::vector<Channel> channels_of(const InverseModel& model) {
   const Track& track = model.tracks().front();
@@ -57,8 +54,13 @@ double spread(const Vector& y) {
 
 }  // namespace
 
-Nrmse nrmse(const InverseModel& model, const Candidate& at) {
-  const Vector residual = model.unweighted_residual(at.axis, at.effects);
+Followed followed(const InverseModel& runs, const Candidate& model) {
+  return {runs, model.axis, runs.prepared(model.axis, model.effects, runs.contacts(model.axis, model.effects))};
+}
+
+Nrmse nrmse(const Followed& at) {
+  const InverseModel& model = at.runs;
+  const Vector residual = model.residual(at.axis, at.model, InverseModel::Rows::as_they_are);
   Nrmse found;
   for (const auto& channel : channels_of(model)) {
     const Vector r = summed(model, residual, channel);
@@ -69,13 +71,12 @@ Nrmse nrmse(const InverseModel& model, const Candidate& at) {
   return found;
 }
 
-Nrmse noise_floor(const InverseModel& model, const Candidate& at) {
-  const auto masses = plant::make_axis_model(at.axis);
+Nrmse noise_floor(const Followed& at) {
+  const InverseModel& model = at.runs;
   const auto& noise = model.noise();
   Nrmse found;
   for (const auto& channel : channels_of(model)) {
-    const double mass =
-        channel.motor * masses.motor_mass_kg + channel.screw * masses.screw_mass_kg + channel.guide * masses.table_mass_kg;
+    const double mass = moved_kg(channel, at.axis);
     double variance = noise.acceleration * mass * mass;
     if (!channel.motor && channel.screw) variance += noise.torque_sensor;
     if (!channel.screw && channel.guide) variance += noise.force_sensor;
@@ -87,15 +88,16 @@ Nrmse noise_floor(const InverseModel& model, const Candidate& at) {
   return found;
 }
 
-double relative_force_error(const InverseModel& model, const Candidate& at) {
-  constexpr double kept = 0.8, band_Hz = 40.0;  // of the new Nyquist frequency
-  const auto residuals = model.force_residuals_N(at.axis, at.effects);
+double relative_force_error(const Followed& at) {
+  const auto residuals = at.runs.force_residuals_N(at.axis, at.model);
   double off = 0.0, all = 0.0;
   for (std::size_t run = 0; run < residuals.size(); ++run) {
-    const Track& track = model.tracks()[run];
-    const int factor = std::max(1, static_cast<int>(std::round(kept * 0.5 / track.sample_s / band_Hz)));
+    const Track& track = at.runs.tracks()[run];
+    const Index settled = track.size - 2 * InverseModel::margin;
+    if (settled <= 0) continue;
+    const int factor = decimation_keeping(InverseModelSettings{}.band_Hz, track.sample_s);
     const auto square = [&](const Vector& force_N) {
-      const auto inner = force_N.segment(InverseModel::margin, track.size - 2 * InverseModel::margin);
+      const auto inner = force_N.segment(InverseModel::margin, settled);
       const auto rows = decimated({inner.data(), static_cast<std::size_t>(inner.size())}, factor);
       return std::inner_product(rows.begin(), rows.end(), rows.begin(), 0.0);
     };
@@ -105,14 +107,12 @@ double relative_force_error(const InverseModel& model, const Candidate& at) {
   return all > 0.0 ? std::sqrt(off / all) : 0.0;
 }
 
-Energy energy(const InverseModel& model, const Candidate& at) {
-  const auto contacts = model.contacts(at.axis, at.effects);
-  const auto prepared = model.prepared(at.axis, at.effects, contacts);
+Energy energy(const Followed& at) {
   Energy sum;
-  for (std::size_t run = 0; run < model.tracks().size(); ++run) {
-    const Track& track = model.tracks()[run];
-    const auto& base = prepared.base[run];
-    const auto& extra = prepared.extra[run];
+  for (std::size_t run = 0; run < at.runs.tracks().size(); ++run) {
+    const Track& track = at.runs.tracks()[run];
+    const auto& base = at.model.base[run];
+    const auto& extra = at.model.extra[run];
     const auto work = [&](const Vector& force, const Vector& more) {
       return track.sample_s * (force.dot(track.centred_m_per_s) + (more.size() > 0 ? more.dot(track.centred_m_per_s) : 0.0));
     };

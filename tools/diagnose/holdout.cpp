@@ -4,11 +4,11 @@
 
 namespace feedtwin::tools::diagnosis {
 
-std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Candidate& nominal,
-                                              const Candidate& recalibrated_only, const Candidate& final) {
+std::map<std::string, ChannelFigures> figures(const Followed& nominal, const Followed& recalibrated_only,
+                                              const Followed& final) {
   std::map<std::string, ChannelFigures> out;
-  const auto before = nrmse(runs, nominal), middle = nrmse(runs, recalibrated_only), after = nrmse(runs, final);
-  const auto floor = noise_floor(runs, final);
+  const auto before = nrmse(nominal), middle = nrmse(recalibrated_only), after = nrmse(final);
+  const auto floor = noise_floor(final);
   for (const auto& [channel, value] : before) {
     const auto at = [&channel](const Nrmse& all) { return all.contains(channel) ? all.at(channel) : 0.0; };
     out[channel] = {value, at(middle), at(after), at(floor)};
@@ -16,10 +16,8 @@ std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Ca
   return out;
 }
 
-ChannelFigures force_errors(const InverseModel& runs, const Candidate& nominal, const Candidate& recalibrated_only,
-                            const Candidate& final) {
-  return {relative_force_error(runs, nominal), relative_force_error(runs, recalibrated_only),
-          relative_force_error(runs, final)};
+ChannelFigures force_errors(const Followed& nominal, const Followed& recalibrated_only, const Followed& final) {
+  return {relative_force_error(nominal), relative_force_error(recalibrated_only), relative_force_error(final)};
 }
 
 std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const AxisByRun& nominal,

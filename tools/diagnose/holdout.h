@@ -7,12 +7,11 @@
 namespace feedtwin::tools::diagnosis {
 
 /// By the inverse model, through its low pass.
-[[nodiscard]] std::map<std::string, ChannelFigures> figures(const InverseModel& runs, const Candidate& nominal,
-                                                            const Candidate& recalibrated_only, const Candidate& final);
+[[nodiscard]] std::map<std::string, ChannelFigures> figures(const Followed& nominal, const Followed& recalibrated_only,
+                                                            const Followed& final);
 
-/// The inverse model's force error in the measure of published fits; no floor.
-[[nodiscard]] ChannelFigures force_errors(const InverseModel& runs, const Candidate& nominal,
-                                          const Candidate& recalibrated_only, const Candidate& final);
+/// The inverse model's relative force error; no floor.
+[[nodiscard]] ChannelFigures force_errors(const Followed& nominal, const Followed& recalibrated_only, const Followed& final);
 
 /// By closed-loop simulation.
 [[nodiscard]] std::map<std::string, ChannelFigures> figures(const ForwardModel& runs, const AxisByRun& nominal,

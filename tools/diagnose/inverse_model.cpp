@@ -172,20 +172,9 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
 
 double InverseModel::weight(const Equation& equation, const plant::AxisParameters& axis, const Contribution& extra) const {
   if (equation.power || equation.slip) return 1.0;
-  const auto moved_kg = [&equation](const plant::AxisParameters& of, double table_kg) {
-    const double k = 2.0 * std::numbers::pi / of.axis.lead_m;
-    return (equation.motor * of.motor.inertia_kgm2 + equation.screw * of.ball_screw_inertia_kgm2) * k * k +
-           equation.guide * table_kg;
-  };
   const double share = acceleration_share_[static_cast<std::size_t>(&equation - equations_.data())];
-  const double heavier =
-      moved_kg(axis, axis.guide_mass_kg + extra.table_mass_kg) / moved_kg(nominal_, nominal_.guide_mass_kg);
+  const double heavier = (moved_kg(equation, axis) + equation.guide * extra.table_mass_kg) / moved_kg(equation, nominal_);
   return 1.0 / std::sqrt(1.0 - share + share * heavier * heavier);
-}
-
-Vector InverseModel::weighted(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
-                              const Contribution& extra, const Baseline& base) const {
-  return weight(equation, axis, extra) * raw_residual(equation, run, axis, extra, base);
 }
 
 InverseModel::Prepared InverseModel::prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,
@@ -200,18 +189,18 @@ InverseModel::Prepared InverseModel::prepared(const plant::AxisParameters& axis,
 
 Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vector<Active>& effects,
                               const std::vector<ContactForces>& contacts) const {
-  const Prepared model = prepared(axis, effects, contacts);
-  Vector rows(rows_);
-  for (const auto& s : segments_)
-    if (s.size > 0) store(s, weighted(equations_[s.equation], s.run, axis, model.extra[s.run], model.base[s.run]), rows);
-  return rows;
+  return residual(axis, prepared(axis, effects, contacts), Rows::weighted);
 }
 
-Vector InverseModel::unweighted_residual(const plant::AxisParameters& axis, const std::vector<Active>& effects) const {
-  const Prepared model = prepared(axis, effects, contacts(axis, effects));
+Vector InverseModel::residual(const plant::AxisParameters& axis, const Prepared& model, Rows which) const {
   Vector rows(rows_);
-  for (const auto& s : segments_)
-    if (s.size > 0) store(s, raw_residual(equations_[s.equation], s.run, axis, model.extra[s.run], model.base[s.run]), rows);
+  for (const auto& s : segments_) {
+    if (s.size == 0) continue;
+    const auto& equation = equations_[s.equation];
+    const auto& extra = model.extra[s.run];
+    const double by = which == Rows::weighted ? weight(equation, axis, extra) : 1.0;
+    store(s, by * raw_residual(equation, s.run, axis, extra, model.base[s.run]), rows);
+  }
   return rows;
 }
 
@@ -229,7 +218,7 @@ Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& mod
     for (const auto& segment : segments_) {
       const auto& equation = equations_[segment.equation];
       if (segment.run != run || segment.size == 0 || !touches(alone, equation)) continue;
-      store(segment, weighted(equation, run, axis, sum, model.base[run]), rows);
+      store(segment, weight(equation, axis, sum) * raw_residual(equation, run, axis, sum, model.base[run]), rows);
       auto part = rows.segment(segment.start, segment.size);
       part = residual.segment(segment.start, segment.size) - part;
     }
@@ -241,9 +230,7 @@ Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vect
   return residual(axis, effects, contacts(axis, effects));
 }
 
-std::vector<Vector> InverseModel::force_residuals_N(const plant::AxisParameters& axis,
-                                                    const std::vector<Active>& effects) const {
-  const Prepared model = prepared(axis, effects, contacts(axis, effects));
+std::vector<Vector> InverseModel::force_residuals_N(const plant::AxisParameters& axis, const Prepared& model) const {
   std::vector<Vector> runs;
   for (std::size_t run = 0; run < tracks_.size(); ++run) {
     Vector sum = Vector::Zero(tracks_[run].size);

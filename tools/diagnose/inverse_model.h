@@ -22,6 +22,9 @@ struct Equation {
   bool motor = false, screw = false, guide = false, slip = false, power = false;
 };
 
+/// Mass that the equation's forces move, kg.
+[[nodiscard]] double moved_kg(const Equation& equation, const plant::AxisParameters& axis);
+
 /// Rows of one equation in one run.
 struct Segment {
   std::size_t equation = 0, run = 0;
@@ -77,17 +80,15 @@ class InverseModel {
   /// computed; `residual` is the prepared model's own.
   [[nodiscard]] Vector fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
                             const Active& more) const;
-  /// Recorded less modelled, all rows, weighted by what noise the mass lets in. `contacts` from the function above (or of an
-  /// equal model).
+  /// Recorded less modelled, all rows, weighted. `contacts` from the function above (or of an equal model).
   [[nodiscard]] Vector residual(const plant::AxisParameters& axis, const std::vector<Active>& effects,
                                 const std::vector<ContactForces>& contacts) const;
   [[nodiscard]] Vector residual(const plant::AxisParameters& axis, const std::vector<Active>& effects) const;
-  /// The same as it is, for figures that are read.
-  [[nodiscard]] Vector unweighted_residual(const plant::AxisParameters& axis, const std::vector<Active>& effects) const;
-  /// Force commanded less force needed for the motion, run by run, at the runs' own rate: nothing filtered, nothing
-  /// weighted.
-  [[nodiscard]] std::vector<Vector> force_residuals_N(const plant::AxisParameters& axis,
-                                                      const std::vector<Active>& effects) const;
+  /// Whether rows carry the weight of what noise the mass lets in, as a fit needs, or are as they are, for figures.
+  enum class Rows { weighted, as_they_are };
+  [[nodiscard]] Vector residual(const plant::AxisParameters& axis, const Prepared& model, Rows which) const;
+  /// Force commanded less force needed for the motion, run by run, at the runs' own rate: nothing filtered or weighted.
+  [[nodiscard]] std::vector<Vector> force_residuals_N(const plant::AxisParameters& axis, const Prepared& model) const;
   /// What is recorded, through the same low pass.
   [[nodiscard]] Vector recorded() const;
   [[nodiscard]] Baseline baseline(const plant::AxisParameters& axis, const ContactForces& contacts, std::size_t run) const;
@@ -97,8 +98,6 @@ class InverseModel {
                                     const Contribution& extra, const Baseline& base) const;
   /// Part of the noise is the measured acceleration's and grows with the mass: unweighted, a smaller mass would shrink it.
   [[nodiscard]] double weight(const Equation& equation, const plant::AxisParameters& axis, const Contribution& extra) const;
-  [[nodiscard]] Vector weighted(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
-                                const Contribution& extra, const Baseline& base) const;
   [[nodiscard]] Vector recorded_side(const Equation& equation, std::size_t run) const;
   /// Standard deviation of the measured acceleration about a smooth one, and the share of an equation's noise that it makes.
   void weigh_noise();

@@ -35,6 +35,11 @@ const std::array<double, taps>& low_pass() {
 
 }  // namespace
 
+double moved_kg(const Equation& equation, const plant::AxisParameters& axis) {
+  const auto model = plant::make_axis_model(axis);
+  return equation.motor * model.motor_mass_kg + equation.screw * model.screw_mass_kg + equation.guide * model.table_mass_kg;
+}
+
 void InverseModel::find_settled() {
   constexpr double filter_s = 0.01;
   settled_.assign(static_cast<std::size_t>(rows_), true);
@@ -54,7 +59,6 @@ void InverseModel::find_settled() {
 }
 
 void InverseModel::weigh_noise() {
-  const auto model = plant::make_axis_model(nominal_);
   const auto sigma = [](const Vector& x) { return white_sigma({x.data(), static_cast<std::size_t>(x.size())}); };
   const auto& kernel = low_pass();
   double flat = 0.0, twice = 0.0;  // what the low pass leaves of white noise, and of its second difference
@@ -72,8 +76,7 @@ void InverseModel::weigh_noise() {
   noise_.slip = flat * std::pow(sigma(track.slip_m), 2);
   const double acceleration = noise_.acceleration, torque = noise_.torque_sensor, force = noise_.force_sensor;
   for (const auto& equation : equations_) {
-    const double mass =
-        equation.motor * model.motor_mass_kg + equation.screw * model.screw_mass_kg + equation.guide * model.table_mass_kg;
+    const double mass = moved_kg(equation, nominal_);
     const double moved = acceleration * mass * mass;
     const double sensed = (equation.motor != equation.screw) * torque + (equation.screw != equation.guide) * force;
     acceleration_share_.push_back(moved / (moved + sensed + 1e-300));

@@ -32,7 +32,7 @@ RecordedMotion recorded_motion(const Recording& recording, double lead_m, const 
   };
   RecordedMotion motion{after(position), after(velocity), after(acceleration), after(torque_Nm), 1};
   for (double& force : motion.force_N) force *= 2.0 * std::numbers::pi / lead_m;
-  motion.decimation = std::max(1, static_cast<int>(std::round(0.8 * nyquist_Hz / settings.band_Hz)));
+  motion.decimation = decimation_keeping(settings.band_Hz, sample_s);
   return motion;
 }
 

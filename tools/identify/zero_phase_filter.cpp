@@ -9,6 +9,8 @@
 namespace feedtwin::tools {
 namespace {
 
+constexpr double kept_of_nyquist = 0.8;  ///< by the filter before decimation, of the new rate
+
 using Complex = std::complex<double>;
 
 std::vector<double> polynomial(const std::vector<Complex>& roots) {
@@ -98,10 +100,14 @@ std::vector<double> filter_both_ways(const DigitalFilter& filter, std::span<cons
   return {first, first + static_cast<std::ptrdiff_t>(values.size())};
 }
 
+int decimation_keeping(double band_Hz, double sample_s) {
+  return std::max(1, static_cast<int>(std::round(kept_of_nyquist * 0.5 / sample_s / band_Hz)));
+}
+
 std::vector<double> decimated(std::span<const double> values, int factor) {
   if (factor <= 1) return {values.begin(), values.end()};
   const auto step = static_cast<std::size_t>(factor);
-  const auto smooth = filter_both_ways(chebyshev(8, 0.05, 0.8 / factor), values);
+  const auto smooth = filter_both_ways(chebyshev(8, 0.05, kept_of_nyquist / factor), values);
   std::vector<double> kept;
   for (std::size_t i = (values.size() - 1) % step; i < values.size(); i += step) kept.push_back(smooth[i]);
   return kept;

@@ -27,6 +27,9 @@ struct DigitalFilter {
 /// frequency.
 [[nodiscard]] std::vector<double> decimated(std::span<const double> values, int factor);
 
+/// The factor at which `decimated` keeps a band; 1 at least.
+[[nodiscard]] int decimation_keeping(double band_Hz, double sample_s);
+
 /// Central differences; one-sided at the ends.
 [[nodiscard]] std::vector<double> central_difference(std::span<const double> values, double step);
 

@@ -5,9 +5,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "tests/support/shared_data.h"
 #include "tools/diagnose/diagnosis.h"
+#include "tools/identify/inverse_model.h"
+#include "tools/identify/zero_phase_filter.h"
 #include "tools/recording/mat.h"
 
 namespace feedtwin {
@@ -28,6 +32,11 @@ tools::Recording lap(const tools::Recording& whole, std::size_t first, std::size
 }
 
 constexpr double lead_m = 0.0025, to_torque = lead_m / (2.0 * std::numbers::pi);
+
+double rms(const std::vector<double>& values) {
+  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                   static_cast<double>(values.size()));
+}
 
 tools::Recording whole_record() {
   auto whole = tools::recording_from(tools::read_mat(tests::shared_path("data/DATA_EMPS.mat")),
@@ -62,10 +71,11 @@ plant::AxisParameters rough_axis() {
   return axis;
 }
 
-// The published rigid model, put into an axis file. The band and the measure are the published ones; the motion is followed
-// as everywhere in `diagnose`, mean force by mean force, which leaves it 3.85 % instead of 4.083 %.
-TEST(ForceErrorOfTheRealRecord, OfThePublishedModelIsNearlyThePublishedOne) {
+// The published rigid model in an axis file, by two ways that follow the motion each for itself. Bristles in place of a sign
+// and commands that are held leave it 3.91 % where the fit that it comes from has 4.083 %.
+TEST(ForceErrorOfTheRealRecord, IsThatOfTheInverseModelOfIdentify) {
   FEEDTWIN_NEEDS_SHARED("data/DATA_EMPS.mat");
+  constexpr double offset_N = -3.165;
   plant::AxisParameters axis = rough_axis();
   axis.motor.inertia_kgm2 = 95.109 * to_torque * to_torque;
   axis.ball_screw_inertia_kgm2 = 1e-12;
@@ -76,9 +86,18 @@ TEST(ForceErrorOfTheRealRecord, OfThePublishedModelIsNearlyThePublishedOne) {
   axis.guide.viscous_Ns_per_m = {0.0, 0.0};
   axis.ball_screw.coulomb_N = axis.ball_screw.static_N = {20.394, 20.394};
   axis.ball_screw.viscous_Ns_per_m = {203.50, 203.50};
-  const InverseModel model(make_tracks({whole_record()}, axis), axis);
-  const Candidate published{axis, {{&hypothesis("torque_offset"), {3.165 * to_torque}}}};
-  EXPECT_NEAR(100.0 * relative_force_error(model, published), 3.853, 0.01);
+  const auto record = whole_record();
+  const auto motion = tools::recorded_motion(record, lead_m);
+  auto off_N = tools::inverse_force_N(axis, motion, record.sample_s);
+  for (std::size_t i = 0; i < off_N.size(); ++i) off_N[i] = motion.force_N[i] - off_N[i] - offset_N;
+  const double identified =
+      rms(tools::decimated(off_N, motion.decimation)) / rms(tools::decimated(motion.force_N, motion.decimation));
+  const InverseModel model(make_tracks({record}, axis), axis);
+  const Candidate published{axis, {{&hypothesis("torque_offset"), {-offset_N * to_torque}}}};
+  const double diagnosed = relative_force_error(followed(model, published));
+  fmt::print("published rigid model, relative force error below 40 Hz: {:.3f} %, by identify {:.3f} %\n", 100.0 * diagnosed,
+             100.0 * identified);
+  EXPECT_NEAR(diagnosed, identified, 0.001);
 }
 
 // Laps 1 and 3 are fitted, 2 and 4 judge. The published rigid model leaves 5.85 % of the whole record, which it was fitted
@@ -102,8 +121,7 @@ TEST(ForwardModel, ClosedLoopOfTheRealRecordOnLapsThatWereNotFitted) {
   const auto& torque = found.holdout.at("torque_cmd_Nm");
   fmt::print("laps not fitted: closed loop {:.2f} % (recalibrated alone {:.2f} %), inverse model {:.3f} %\n",
              100.0 * torque.after, 100.0 * torque.recalibrated, 100.0 * found.holdout_inverse.at("torque_cmd_Nm").after);
-  fmt::print("laps not fitted, inverse model below 40 Hz, |f - m| / |f| (published rigid model: 3.853 %): {:.3f} %\n",
-             100.0 * found.force_error.after);
+  fmt::print("laps not fitted, inverse model below 40 Hz, |f - m| / |f|: {:.3f} %\n", 100.0 * found.force_error.after);
   for (const auto& effect : found.effects) fmt::print("{}: {}\n", effect.hypothesis->id, effect.sentence);
   EXPECT_LT(torque.after, 0.0385);
   EXPECT_LT(torque.after, 0.85 * torque.recalibrated);

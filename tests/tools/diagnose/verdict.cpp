@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/made_case.h"
+#include "tools/diagnose/unknown.h"
 
 namespace feedtwin {
 namespace {
@@ -72,9 +73,26 @@ bool unknown_with_told(double told_N) {
   return beyond_the_catalogue(fitter, found, {data.axis, {told}}, [](std::string_view) {});
 }
 
-TEST(BeyondTheCatalogue, ANameThatEveryFoldBearsOutStaysUnlessItHardlyHelps) {
+TEST(BeyondTheCatalogue, ANameThatEveryFoldBearsOutStaysUnlessItTakesOnlyABite) {
+  EXPECT_FALSE(unknown_with_told(40.0));
   EXPECT_FALSE(unknown_with_told(30.0));
+  EXPECT_TRUE(unknown_with_told(15.0));
   EXPECT_TRUE(unknown_with_told(3.0));
+}
+
+TEST(Repeats, ATableThatExplainsMuchOfItOrLessButAsLargeAForce) {
+  const auto told = [](double share, double remainder_N) {
+    Learned table;
+    table.share_unseen = share;
+    table.remainder_N = remainder_N;
+    return repeats(table);
+  };
+  EXPECT_TRUE(told(0.4, 0.6));
+  EXPECT_FALSE(told(0.4, 0.4));
+  EXPECT_TRUE(told(0.1, 2.0));
+  EXPECT_FALSE(told(0.1, 1.0)) << "0.3 N of it";
+  EXPECT_FALSE(told(0.06, 10.0)) << "as much as chance has had";
+  EXPECT_FALSE(told(-0.2, 10.0));
 }
 
 TEST(Verdict, AGravityThatIsToldIsARecalibrationWhateverIsSuspected) {
