@@ -81,8 +81,9 @@ TEST(BeyondTheCatalogue, ANameThatEveryFoldBearsOutStaysUnlessItTakesOnlyABite) 
 }
 
 TEST(Repeats, ATableThatExplainsMuchOfItOrLessButAsLargeAForce) {
-  const auto told = [](double share, double remainder_N) {
+  const auto told = [](double share, double remainder_N, Where axis = Where::position) {
     Learned table;
+    table.axis = axis;
     table.share_unseen = share;
     table.remainder_N = remainder_N;
     return repeats(table);
@@ -93,6 +94,9 @@ TEST(Repeats, ATableThatExplainsMuchOfItOrLessButAsLargeAForce) {
   EXPECT_FALSE(told(0.1, 1.0)) << "0.3 N of it";
   EXPECT_FALSE(told(0.06, 10.0)) << "as much as chance has had";
   EXPECT_FALSE(told(-0.2, 10.0));
+  EXPECT_TRUE(told(0.1, 2.0, Where::velocity));
+  EXPECT_FALSE(told(0.1, 2.0, Where::reversal)) << "as much as bristles and a real contact differ";
+  EXPECT_TRUE(told(0.4, 0.6, Where::reversal));
 }
 
 TEST(Verdict, AGravityThatIsToldIsARecalibrationWhateverIsSuspected) {
