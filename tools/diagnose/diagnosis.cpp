@@ -10,6 +10,7 @@
 #include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/gain_in_numbers.h"
 #include "tools/diagnose/forward/likelihood.h"
 #include "tools/diagnose/forward/missed.h"
 #include "tools/diagnose/forward/pictures.h"
@@ -91,7 +92,11 @@ class Diagnosing {
     forward_.learn_meter_noise(extended(as_settled()));
     if (!same_names(names_before)) found_.last = screen(fitter_, fit_, found_.whitening);
     look_again_at_the_runs();
-    if (!settled_) return;
+    if (settled_) drop_what_is_not_missed();
+    settled_ = ask_for_gain_in_numbers(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
+  }
+
+  void drop_what_is_not_missed() {
     const auto names_then = fit_.model.effects;
     keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
     if (same_names(names_then)) return;
@@ -171,8 +176,11 @@ class Diagnosing {
   void tell() {
     for (const auto& one : found_.found) {
       const auto now = std::ranges::find(fit_.model.effects, one.effect.hypothesis, &Active::hypothesis);
-      if (now != fit_.model.effects.end() && worth_naming(*now))
+      if (now == fit_.model.effects.end()) continue;
+      if (worth_naming(*now))
         result_.effects.push_back(named_effect(one, fit_, covariance_, model_));
+      else
+        progress_(fmt::format("{} is of a size that other physics has too: not named", in_words(*now, fit_.model.axis)));
     }
     tell_as_one_lead(result_);
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))

@@ -32,7 +32,8 @@ struct NamedEffect {
   std::vector<std::pair<double, double>> intervals;  ///< where it acts
   double share = 0.0, p_false_alarm = 1.0;
   std::vector<std::string> alternatives;
-  bool by_closed_loop = false;  ///< told by the simulated motion: in the inverse model the numbers take it up
+  bool by_closed_loop = false;   ///< told by the simulated motion: in the inverse model the numbers take it up
+  bool by_common_shift = false;  ///< in both models the numbers take it up, all off by the same share
 };
 
 struct Recalibrated {

@@ -127,6 +127,7 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
   effect.share = one.share;
   effect.p_false_alarm = one.p_false_alarm;
   effect.by_closed_loop = one.by_closed_loop;
+  effect.by_common_shift = one.by_common_shift;
   effect.intervals = acts_in(effect, model);
   for (const auto* rival : one.rivals) effect.alternatives.emplace_back(rival->id);
   const auto now = std::ranges::find(fit.model.effects, effect.hypothesis, &Active::hypothesis);

@@ -41,6 +41,7 @@ struct Found {
   bool far_off = false;                   ///< the numbers could do it, far from nominal: no channel bears it out
   bool by_closed_loop = false;            ///< asked for by the closed loop alone
   bool by_runs_alone = false;             ///< and there no channel says so
+  bool by_common_shift = false;           ///< numbers could do it, all off by the same share
   double missed_nats = 0.0;  ///< how much less likely the runs are in closed loop without it, all other numbers free
 };
 

@@ -13,6 +13,9 @@ std::string told(const Estimate& estimate) {
 }
 
 std::string how_much(const NamedEffect& effect) {
+  if (effect.by_common_shift)
+    return "The table's numbers could make up for it, mass and all friction off by the same share; that numbers which are "
+           "known each by itself should be tells it from them";
   if (effect.by_closed_loop)
     return "Other numbers of the model can imitate its force; the simulated motion tells it from them";
   return fmt::format("It makes {:.0f} % of what the recalibrated model leaves over", 100.0 * effect.share);

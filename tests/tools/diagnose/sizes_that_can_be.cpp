@@ -19,6 +19,8 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_FALSE(finding(80.0, 1.5e-6)) << "a bristle's own stiffness";
   EXPECT_FALSE(finding(35.0, 6e-6)) << "a contact of many elements where the model has one bristle";
   EXPECT_FALSE(finding(3.6, 1.2e-5)) << "a screw that yields";
+  EXPECT_TRUE(finding(4.1, 4.9e-5)) << "over more than any of them";
+  EXPECT_FALSE(finding(1.9, 1.3e-5)) << "what is left of a torque constant";
 }
 
 TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {

@@ -40,6 +40,12 @@ std::size_t alike_to_begin_with(const std::vector<const Hypothesis*>& some, cons
   return static_cast<std::size_t>(std::ranges::mismatch(some, others).in1 - some.begin());
 }
 
+Ruling judged(Ruling ruling, const Fitter& fitter) {
+  ruling.value = ruling.likelihood.total() - 0.5 * fitter.deviations(ruling.model.axis).squaredNorm() -
+                 nats_per_parameter * freedom(ruling.model);
+  return ruling;
+}
+
 /// @param known slopes of an explanation beside it; none: seen anew
 /// @param of_effects are those of the effects' numbers known too?
 Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
@@ -60,12 +66,14 @@ Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forw
   const Candidate better = polish(forward, fitter, start, settings).model;
   if (auto found = likelihood(forward, extended(better)); found.total() > ruling.likelihood.total())
     ruling.model = better, ruling.likelihood = std::move(found);
-  ruling.value = ruling.likelihood.total() - 0.5 * fitter.deviations(ruling.model.axis).squaredNorm() -
-                 nats_per_parameter * freedom(ruling.model);
-  return ruling;
+  return judged(std::move(ruling), fitter);
 }
 
 }  // namespace
+
+Ruling rule_as_it_is(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
+  return judged({fit, fit.model, likelihood(forward, extended(fit.model)), 0.0, {}}, fitter);
+}
 
 Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
   return polished(fit, fit.model, forward, fitter, first_iterations, {});

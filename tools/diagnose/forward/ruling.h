@@ -31,6 +31,8 @@ struct Ruling {
 };
 
 [[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
+/// Not polished.
+[[nodiscard]] Ruling rule_as_it_is(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
 /// Slopes of the nominal model's numbers for a polish: those of the ruling before it cost nothing, and serve where the
 /// numbers stay about where they were.
 enum class SlopesOf { before, anew };

@@ -203,15 +203,21 @@ class SecondLook {
     return judged(Answer{&question.score, std::move(one)}, now);
   }
 
+  /// How far the numbers are from nominal.
+  [[nodiscard]] double squared_tolerances(const Ruling& of) const { return fitter_.deviations(of.model.axis).squaredNorm(); }
+
   [[nodiscard]] Answer judged(Answer answer, const Ruling& now) const {
     const Hypothesis& h = *answer.score->hypothesis;
     const Ruling& one = answer.ruling;
     const auto seen = closer(h.only_readings ? least_errors_ : errors_, forward_.nrmse(extended(one.model)), floor_,
                              one.model.effects.back());
     const double nats = one.value - now.value, deviations = compared(one.likelihood, now.likelihood).deviations;
-    progress_(fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, {} {:.2f} times as close, {:.0f} %", h.id,
-                          nats, deviations, seen.channel.empty() ? "no channel" : seen.channel, seen.ratio,
-                          100.0 * seen.share));
+    const double nearer_nominal = squared_tolerances(now) - squared_tolerances(one);
+    progress_(
+        fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, numbers {:+.0f} squared tolerances nearer to "
+                    "nominal, {} {:.2f} times as close, {:.0f} %",
+                    in_words(one.model.effects.back(), one.model.axis), nats, deviations, nearer_nominal,
+                    seen.channel.empty() ? "no channel" : seen.channel, seen.ratio, 100.0 * seen.share));
     const bool closer_by_far =
         seen.ratio >= least_ratio && seen.share >= least_share && nats >= least_nats && deviations >= least_deviations;
     const bool slight = runs_may_tell(one.model.effects.back());
