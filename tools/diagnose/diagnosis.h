@@ -26,7 +26,7 @@ struct Estimate {
 
 struct NamedEffect {
   const Hypothesis* hypothesis = nullptr;
-  std::string_view component;  ///< where it acts
+  std::string_view component, channel;  ///< where it acts, and shows
   std::string sentence;
   std::vector<std::pair<std::string, Estimate>> parameters;
   std::vector<std::pair<double, double>> intervals;  ///< where it acts

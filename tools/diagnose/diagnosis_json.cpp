@@ -46,7 +46,7 @@ json of(const NamedEffect& effect) {
   return {{"id", h.id},
           {"component", effect.component},
           {"sentence", effect.sentence},
-          {"where", {{"channel", h.channel}, {"axis", name_of(h.where)}, {"intervals", intervals}}},
+          {"where", {{"channel", effect.channel}, {"axis", name_of(h.where)}, {"intervals", intervals}}},
           {"parameters", parameters},
           {"share_of_mismatch", effect.share},
           {"p_false_alarm", effect.p_false_alarm}};

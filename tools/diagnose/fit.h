@@ -34,6 +34,9 @@ struct Fit {
   std::vector<BaseParameter> base;
 };
 
+/// Of a refit from numbers that are near already.
+inline constexpr int refit_iterations = 6;
+
 class Fitter {
  public:
   Fitter(const InverseModel& model, const plant::AxisParameters& nominal);

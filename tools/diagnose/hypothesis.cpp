@@ -49,6 +49,11 @@ std::string_view component_of(const Active& active) {
   return h.component_for != nullptr ? h.component_for(active.q) : h.component;
 }
 
+std::string_view channel_of(const Active& active) {
+  const Hypothesis& h = *active.hypothesis;
+  return h.reading != nullptr ? h.reading(active.q) : h.channel;
+}
+
 std::string in_words(const Active& active, const plant::AxisParameters& axis) {
   std::string values;
   for (const auto& [name, value] : active.hypothesis->named(active.q, axis))

@@ -146,6 +146,8 @@ struct Active {
 [[nodiscard]] bool possible(const Active& active, const plant::AxisParameters& axis);
 /// Where it acts.
 [[nodiscard]] std::string_view component_of(const Active& active);
+/// Where it is read off, with the numbers that it has.
+[[nodiscard]] std::string_view channel_of(const Active& active);
 /// "cogging (amplitude_Nm 0.012, cycles_per_rev 12)"
 [[nodiscard]] std::string in_words(const Active& active, const plant::AxisParameters& axis);
 /// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.

@@ -113,6 +113,7 @@ NamedEffect held_by_numbers(const Hypothesis& name, double gain, const Fit& fit)
   NamedEffect effect;
   effect.hypothesis = &name;
   effect.component = name.component;
+  effect.channel = name.channel;
   effect.share = gain / (gain + fit.cost);
   effect.p_false_alarm = std::min(1.0, std::exp(-0.5 * gain) * static_cast<double>(hypotheses().size()));
   return effect;
@@ -122,6 +123,7 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
   NamedEffect effect;
   effect.hypothesis = one.effect.hypothesis;
   effect.component = component_of(one.effect);
+  effect.channel = channel_of(one.effect);
   for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
     if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, covariance, e);
   effect.share = one.share;

@@ -17,7 +17,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int rounds = 3, iterations = 6;
+constexpr int rounds = 3;
 /// Of the best hypotheses that are refitted; of which none is enough.
 constexpr std::size_t refitted = 4, refitted_for_one = 10, rivals_tried = 4;
 
@@ -53,7 +53,7 @@ class Search {
  private:
   /// The model from here on, refitted with a colour of its own.
   void take(const Candidate& model, int colours = 2) {
-    fit_ = fitter_.fit_with_colour(model, whitening_, colours, iterations);
+    fit_ = fitter_.fit_with_colour(model, whitening_, colours, refit_iterations);
     bring_back();
     for (const auto& effect : fit_.model.effects)
       if (possible(effect, fit_.model.axis)) sound_[effect.hypothesis] = effect.q;
@@ -70,7 +70,7 @@ class Search {
       if (stood != sound_.end() && !possible(effect, again.axis)) effect.q = stood->second, any = true;
     }
     if (!any) return;
-    Fit other = fitter_.fit(again, whitening_, iterations);
+    Fit other = fitter_.fit(again, whitening_, refit_iterations);
     if (other.cost > fit_.cost) return;
     whitening_ = fitter_.colour_of(other.residual);
     fit_ = fitter_.linearised(other.model, whitening_);
@@ -80,11 +80,11 @@ class Search {
   const Fit& lacking(std::size_t effect) {
     const auto known = lacking_.find(effect);
     if (known != lacking_.end()) return known->second;
-    return lacking_.emplace(effect, fitter_.fit(without(fit_.model, effect), whitening_, iterations)).first->second;
+    return lacking_.emplace(effect, fitter_.fit(without(fit_.model, effect), whitening_, refit_iterations)).first->second;
   }
 
   void try_wider_stribeck() {
-    const auto wider = with_wider_stribeck(fitter_, fit_, whitening_, 2 * iterations);
+    const auto wider = with_wider_stribeck(fitter_, fit_, whitening_, 2 * refit_iterations);
     if (!wider) return;
     progress_(
         fmt::format("a Stribeck velocity of {:.2g} m/s explains more", wider->model.axis.ball_screw.stribeck_m_per_s.pos));
@@ -100,7 +100,7 @@ class Search {
     const Fit nominal = fitter_.linearised(start, colour);
     const auto scores = scores_of({&hypothesis("hard_stop")}, fitter_, nominal, colour);
     if (scores.empty() || scores.front().gain < asked_at * nominal.cost) return;
-    const Fit struck = fit_with(fitter_, nominal.model, scores.front(), 0, whitening_, iterations);
+    const Fit struck = fit_with(fitter_, nominal.model, scores.front(), 0, whitening_, refit_iterations);
     const Active& effect = struck.model.effects.front();
     progress_(fmt::format("  {}: {:.2g} times the cost of the numbers alone", in_words(effect, struck.model.axis),
                           struck.cost / fit_.cost));
@@ -128,7 +128,7 @@ class Search {
       if (score.gain < bar_.gain || by_chance_alone || dropped_.contains(score.hypothesis)) continue;
       ++tried;
       if (tried > refitted && (!enough.empty() || tried > refitted_for_one)) break;
-      Fit fit = fit_with_whole_number(fitter_, fit_, score, whitening_, bar_, iterations);
+      Fit fit = fit_with_whole_number(fitter_, fit_, score, whitening_, bar_, refit_iterations);
       if (!possible(fit.model.effects.back(), fit.model.axis)) {
         progress_(fmt::format("  {}: no such size", in_words(fit.model.effects.back(), fit.model.axis)));
         continue;
@@ -189,7 +189,7 @@ class Search {
     for (const auto& score : earlier_[i]) {
       const auto* rival = score.hypothesis;
       if (has(fit_.model, *rival) || score.gain < 0.7 * own || ++tried > rivals_tried) continue;
-      const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, iterations);
+      const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, refit_iterations);
       const Active& other = fit.model.effects.back();
       if (!worth_naming(other) || !possible(other, fit.model.axis) || !judged(fitter_, fit, less, *rival, bar_).enough)
         continue;

@@ -10,8 +10,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int iterations = 6;
-constexpr std::size_t asked = 4;
+constexpr std::size_t most_asked = 4;
 constexpr double share_of_strength = 0.7;  // of what it takes to be named
 
 bool can_be_suspected(const Score& score, const Screen& left, const Bar& bar) {
@@ -24,8 +23,8 @@ bool can_be_suspected(const Score& score, const Screen& left, const Bar& bar) {
 bool holds(const InverseModel& model, const Fit& with, const Fit& without, const Bar& bar) {
   const auto gains = gains_by_fold(model, with, without, bar.folds);
   const double on_unseen = std::accumulate(gains.begin(), gains.end(), 0.0);
-  const auto folds = static_cast<std::size_t>(std::ranges::count_if(gains, [](double g) { return g > 1.0; }));
-  return on_unseen > 0.5 * (without.cost - with.cost) && 4 * folds >= 3 * bar.folds;
+  const auto that_gain = static_cast<std::size_t>(std::ranges::count_if(gains, [](double g) { return g > 1.0; }));
+  return on_unseen > 0.5 * (without.cost - with.cost) && 4 * that_gain >= 3 * bar.folds;
 }
 
 }  // namespace
@@ -36,8 +35,8 @@ std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, c
   std::size_t tried = 0;
   for (const auto& score : found.last.scores) {
     if (!can_be_suspected(score, found.last, bar)) continue;
-    if (++tried > asked) break;
-    const Fit with = fit_with(fitter, fit.model, score, fit.model.effects.size(), found.whitening, iterations);
+    if (++tried > most_asked) break;
+    const Fit with = fit_with(fitter, fit.model, score, fit.model.effects.size(), found.whitening, refit_iterations);
     const Active& active = with.model.effects.back();
     const auto& h = *score.hypothesis;
     if (!possible(active, with.model.axis) || !worth_naming(active)) continue;

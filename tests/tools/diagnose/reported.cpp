@@ -53,5 +53,12 @@ TEST(SentenceOf, WhatTheClosedLoopAloneTellsIsNoShareOfTheInverseModelsRemainder
   EXPECT_NE(sentence_of(effect).find("simulated motion tells it"), std::string::npos);
 }
 
+TEST(ChannelOf, AGainIsReadOffTheSensorThatHasIt) {
+  const Hypothesis& gain = hypothesis("sensor_gain");
+  EXPECT_EQ(channel_of({&gain, {0.1, 0.0, 0.0}}), "torque_sensor_Nm");
+  EXPECT_EQ(channel_of({&gain, {0.0, 0.1, 1.0}}), "force_sensor_N");
+  EXPECT_EQ(channel_of({&hypothesis("copper_loss"), {10.0}}), "power_W");
+}
+
 }  // namespace
 }  // namespace feedtwin

@@ -9,7 +9,6 @@ namespace {
 
 /// A rival that the inverse model finds this much worse, as a share of what the named one brings, is not simulated.
 constexpr double hopeless = 0.5;
-constexpr int iterations = 6;
 
 }  // namespace
 
@@ -25,11 +24,11 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   std::erase_if(asked, [&](const Hypothesis* other) {
     return has(fit.model, *other) || std::ranges::find(beaten, other) != beaten.end();
   });
-  const Fit less = fitter_.fit(without(fit.model, e), found.whitening, iterations);
+  const Fit less = fitter_.fit(without(fit.model, e), found.whitening, refit_iterations);
   for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {
     std::erase(entry->rivals, score.hypothesis);
     if (score.gain <= 0.0) continue;
-    const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, iterations);
+    const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, refit_iterations);
     if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
     Ruling rival = rule_beside(now, other, forward_, fitter_, SlopesOf::anew);

@@ -9,12 +9,11 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double in_question_nats = 1000.0, doubtful_nats = 50.0;
-constexpr int iterations = 6;
 
 /// What it takes to stay, beside what the effect's own numbers cost. Where the closed loop is indifferent a name stays that
 /// the inverse model asks for and unseen folds bear out, if it keeps its size (friction along the stroke of the EMPS axis);
 /// not one that rests on single events (a stop of a null: 3).
-double least_nats(const Found& named) {
+double nats_to_stay(const Found& named) {
   const Hypothesis& h = *named.effect.hypothesis;
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, h.least_missed_nats);
 }
@@ -42,14 +41,14 @@ class Asked {
       const auto* hypothesis = fit.model.effects[e].hypothesis;
       auto* named = found.of(hypothesis);
       if (named == nullptr || !worth_naming(fit.model.effects[e])) continue;
-      if (named->missed_nats > surely_missed * std::max(100.0, least_nats(*named))) continue;
+      if (named->missed_nats > surely_missed * std::max(100.0, nats_to_stay(*named))) continue;
       Ruling rest = without_it(found, fit, settled, e);
-      if (settled.value - rest.value < std::max(doubtful_nats, least_nats(*named))) asked_fairly(settled, rest, e);
+      if (settled.value - rest.value < std::max(doubtful_nats, nats_to_stay(*named))) asked_fairly(settled, rest, e);
       named->missed_nats = settled.value - rest.value;
       progress_(fmt::format("closed loop, all numbers free, without {}: {:+.0f} nats", hypothesis->id, -named->missed_nats));
       const Active& now = settled.model.effects[e];
       const bool cannot_be = !possible(now, settled.model.axis) || (named->by_runs_alone && !runs_may_tell(now));
-      const double short_of_nats = cannot_be ? 1e300 : least_nats(*named) - named->missed_nats;
+      const double short_of_nats = cannot_be ? 1e300 : nats_to_stay(*named) - named->missed_nats;
       if (short_of_nats > 0.0 && (!least || short_of_nats > least->short_of_nats))
         least = Lacking{hypothesis, std::move(rest), short_of_nats, cannot_be};
     }
@@ -58,7 +57,7 @@ class Asked {
 
  private:
   [[nodiscard]] Ruling without_it(const SearchResult& found, const Fit& fit, const Ruling& settled, std::size_t e) const {
-    const Fit less = fitter_.fit(without(fit.model, e), found.whitening, iterations);
+    const Fit less = fitter_.fit(without(fit.model, e), found.whitening, refit_iterations);
     Ruling rest = rule_beside(settled, less, forward_, fitter_, SlopesOf::before);
     if (settled.value - rest.value < in_question_nats) rest = rule_again(rest, forward_, fitter_, SlopesOf::anew);
     return rest;

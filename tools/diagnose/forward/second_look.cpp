@@ -13,17 +13,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int most_names = 2, most_rounds = 4;
-constexpr double beyond_noise = 2.0;                     // a channel that is worth the question
-constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
-constexpr double least_nats = 100.0, least_deviations = 3.0;
-// what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
-constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
-constexpr double glance_share = 0.3;  // of the nats that tell it: what a glance must promise
-// a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
-constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
-constexpr double least_deviations_by_runs = 4.5;      // likewise of what is no reading: right ones 6.0, wrong ones 3.1
-constexpr double least_deviations_of_readings = 9.0;  // by the runs alone: right ones 9.7 and more, wrong ones 8.1 and less
+constexpr int most_names = 2;
+constexpr double beyond_noise = 2.0;  // a channel that is worth the question
 
 /// How a model brings a channel closer, of those that are off beyond noise.
 struct Closer {
@@ -96,6 +87,18 @@ class SecondLook {
   }
 
  private:
+  static constexpr int most_rounds = 4;
+  static constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
+  static constexpr double least_nats = 100.0, least_deviations = 3.0;
+  // what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
+  static constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
+  static constexpr double glance_share = 0.3;  // of the nats that tell it: what a glance must promise
+  // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
+  static constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
+  static constexpr double least_deviations_by_runs = 4.5;  // likewise of what is no reading: right ones 6.0, wrong ones 3.1
+  // by the runs alone: right ones 9.7 and more, wrong ones 8.1 and less
+  static constexpr double least_deviations_of_readings = 9.0;
+
   /// The closed loop with one effect more.
   struct Answer {
     const Score* score;
@@ -166,8 +169,7 @@ class SecondLook {
 
   /// With the effect as the inverse model fits it; where that cannot tell it as given, or not at all.
   [[nodiscard]] std::optional<Fit> refitted(const Question& question, const Whitening& whitening, const Fit& fit) const {
-    constexpr int iterations = 6;
-    Fit with = fit_with(fitter_, fit.model, question.score, fit.model.effects.size(), whitening, iterations);
+    Fit with = fit_with(fitter_, fit.model, question.score, fit.model.effects.size(), whitening, refit_iterations);
     Active& effect = with.model.effects.back();
     if (effect.hypothesis->told_by_runs_nats || !can_be_named(effect, with.model.axis)) {
       if (question.start.empty()) return std::nullopt;

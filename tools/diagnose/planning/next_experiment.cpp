@@ -11,7 +11,6 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr int iterations = 6;
 constexpr std::size_t most_rivals = 3, asked_closely = 4;
 constexpr double good_enough = 0.95;  // a dearer move is not looked for beyond it
 
@@ -96,7 +95,7 @@ NextExperiment plan_to_separate(const Evidence& seen, const Hypothesis& effect, 
   const auto own = std::ranges::find(seen.model.effects, &effect, &Active::hypothesis);
   if (own == seen.model.effects.end()) return next;
   const InverseModel& inverse = seen.fitter.model();
-  const Fit less = seen.fitter.fit(without(seen.model, effect.id), seen.whitening, iterations);
+  const Fit less = seen.fitter.fit(without(seen.model, effect.id), seen.whitening, refit_iterations);
   const Separation separation(seen.forward, seen.fitter, seen.model, seen.data.controller);
   std::vector<Score> scores;
   std::vector<Question> questions;
@@ -106,7 +105,7 @@ NextExperiment plan_to_separate(const Evidence& seen, const Hypothesis& effect, 
     if (!start) continue;
     Candidate rival = less.model;
     rival.effects.push_back(*start);
-    questions.push_back({seen.model, contender(seen.fitter.fit(rival, seen.whitening, iterations), inverse)});
+    questions.push_back({seen.model, contender(seen.fitter.fit(rival, seen.whitening, refit_iterations), inverse)});
   }
   if (questions.empty()) return next;
   const Answer best = best_move(separation, questions, progress);
