@@ -4,54 +4,30 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/made_case.h"
+#include "tests/tools/diagnose/cogged.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/missed.h"
 #include "tools/diagnose/forward/ruling.h"
-#include "tools/diagnose/forward/sizes.h"
 
 namespace feedtwin {
 namespace {
 
 using namespace tools::diagnosis;
-const std::function<void(std::string_view)> silent = [](std::string_view) {};
+using tests::Cogged, tests::silent;
 
-/// Runs of the source's axis with cogging that the nominal axis does not have.
-struct Cogged {
-  tools::Case data;
-  InverseModel model;
-  Fitter fitter;
-  ForwardModel forward;
-  Candidate nominal;
-  Whitening whitening;
-
-  Cogged()
-      : data(made()),
-        model(make_tracks(data.fit, data.axis), data.axis),
-        fitter(model, data.axis),
-        forward(data.fit, data),
-        nominal{data.axis, {}},
-        whitening(fitter.colour_of(model.residual(data.axis, {}))) {}
-
-  static tools::Case made() {
-    auto truth = plant::source_axis();
-    truth.effects.push_back(tests::effect("cogging", {{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}}));
-    return tests::short_case(truth, plant::source_axis());
-  }
-  /// What the arbiter leaves of this explanation.
-  [[nodiscard]] std::string_view settled(const Active& explanation) const {
-    Fit fit = fitter.fit({data.axis, {explanation}}, whitening, 6);
-    SearchResult result;
-    result.whitening = whitening;
-    Found named;
-    named.effect = fit.model.effects[0];
-    result.found.push_back(named);
-    (void)Arbiter(forward, fitter, silent).settle(result, fit);
-    EXPECT_EQ(result.found[0].effect.hypothesis, fit.model.effects[0].hypothesis);
-    return fit.model.effects[0].hypothesis->id;
-  }
-};
+/// What the arbiter leaves of this explanation.
+std::string_view settled(const Cogged& made, const Active& explanation) {
+  Fit fit = made.fitter.fit({made.data.axis, {explanation}}, made.whitening, 6);
+  SearchResult result;
+  result.whitening = made.whitening;
+  Found named;
+  named.effect = fit.model.effects[0];
+  result.found.push_back(named);
+  (void)Arbiter(made.forward, made.fitter, silent).settle(result, fit);
+  EXPECT_EQ(result.found[0].effect.hypothesis, fit.model.effects[0].hypothesis);
+  return fit.model.effects[0].hypothesis->id;
+}
 
 TEST(Likelihood, PrefersTheAxisThatMadeTheRunsAndNothingToItself) {
   const Cogged made;
@@ -65,8 +41,8 @@ TEST(Likelihood, PrefersTheAxisThatMadeTheRunsAndNothingToItself) {
 
 TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
   const Cogged made;
-  EXPECT_EQ(made.settled({&hypothesis("torque_ripple"), {0.0, 0.0, 8.0}}), "cogging");
-  EXPECT_EQ(made.settled({&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
+  EXPECT_EQ(settled(made, {&hypothesis("torque_ripple"), {0.0, 0.0, 8.0}}), "cogging");
+  EXPECT_EQ(settled(made, {&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
 }
 
 /// Runs with a delay of the command, and what the arbiter says of it.
@@ -206,83 +182,6 @@ TEST(Missed, ANameThatTheRunsAloneToldGoesWhereItHasOutgrownThat) {
   EXPECT_EQ(left_of(true, 0.08), 2U);
   EXPECT_EQ(left_of(true, 0.16), 1U);
   EXPECT_EQ(left_of(false, 0.16), 2U);
-}
-
-TEST(Sizes, WhatOtherNumbersCanTakeUpIsTakenBackWhereItsOwnAreNotTold) {
-  const Cogged made;
-  Candidate model{made.data.axis,
-                  {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}, {&hypothesis("direction_dependent_friction"), {0.4, 0.0}}}};
-  for (auto* friction_N : {&model.axis.ball_screw.coulomb_N, &model.axis.ball_screw.static_N})
-    friction_N->pos -= 0.2, friction_N->neg += 0.2;
-  for (const bool told : {true, false}) {
-    Fit fit = made.fitter.linearised(model, made.whitening);
-    SearchResult result;
-    for (const auto& effect : model.effects) result.found.emplace_back().effect = effect;
-    Eigen::MatrixXd covariance = fit.covariance;
-    covariance.bottomRows(2).setZero();
-    covariance.rightCols(2).setZero();
-    covariance.bottomRightCorner<2, 2>().diagonal().setConstant(std::pow(told ? 0.01 : 0.4, 2));
-    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
-    EXPECT_EQ(fit.model.effects.size(), told ? 2U : 1U);
-    EXPECT_EQ(result.found.size(), fit.model.effects.size());
-    EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
-  }
-}
-
-TEST(Sizes, WhatTheClosedLoopFindsToBeNothingIsTakenBackAndNothingElse) {
-  const Cogged made;
-  const Candidate both{made.data.axis,
-                       {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}, {&hypothesis("torque_ripple"), {1e-7, 0.0, 8.0}}}};
-  Fit fit = made.fitter.linearised(both, made.whitening);
-  SearchResult result;
-  for (const auto& effect : both.effects) {
-    Found named;
-    named.effect = effect;
-    result.found.push_back(named);
-  }
-  Eigen::MatrixXd covariance = fit.covariance;
-  drop_sizeless(made.forward, made.fitter, both, result, fit, covariance, silent);
-  ASSERT_EQ(fit.model.effects.size(), 1U);
-  EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
-  ASSERT_EQ(result.found.size(), 1U);
-  EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
-  EXPECT_EQ(covariance.rows(), fit.base_count() + static_cast<Index>(freedom(hypothesis("cogging"))));
-}
-
-TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
-  const Cogged made;
-  const auto left_of = [&made](double by_inverse_model_Nm, double missed_nats) {
-    const auto with = [&made](double amplitude_Nm) {
-      return Candidate{made.data.axis, {{&hypothesis("cogging"), {amplitude_Nm, 0.0, 8.0}}}};
-    };
-    Fit fit = made.fitter.linearised(with(0.01), made.whitening);
-    SearchResult result;
-    result.found.emplace_back().effect = fit.model.effects[0];
-    result.found[0].missed_nats = missed_nats;
-    Eigen::MatrixXd covariance = fit.covariance;
-    drop_sizeless(made.forward, made.fitter, with(by_inverse_model_Nm), result, fit, covariance, silent);
-    EXPECT_EQ(result.found.size(), fit.model.effects.size());
-    return fit.model.effects.size();
-  };
-  EXPECT_EQ(left_of(0.02, 0.0), 1U);
-  EXPECT_EQ(left_of(0.1, 0.0), 0U);
-  EXPECT_EQ(left_of(0.1, 1000.0), 1U) << "the closed loop misses it";
-  EXPECT_EQ(left_of(0.03, 5.0), 1U);
-  EXPECT_EQ(left_of(0.03, -5.0), 0U) << "the closed loop does better without";
-}
-
-TEST(Sizes, WhatComesOutAtASizeThatCannotBeIsTakenBackHoweverMuchItIsMissed) {
-  const Cogged made;
-  for (const double rise : {0.1, 0.02}) {
-    const Candidate model{made.data.axis, {{&hypothesis("dwell_breakaway"), {rise, 1.0}}}};
-    Fit fit = made.fitter.linearised(model, made.whitening);
-    SearchResult result;
-    result.found.emplace_back().effect = model.effects[0];
-    result.found[0].missed_nats = 1000.0;
-    Eigen::MatrixXd covariance = fit.covariance;
-    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
-    EXPECT_EQ(fit.model.effects.size(), rise > 0.03 ? 1U : 0U) << rise;
-  }
 }
 
 }  // namespace

@@ -35,7 +35,11 @@ const std::map<std::string_view, Trial>& trials() {
       {"rev_ripple", {{{"amplitude_N", 5.0}, {"cycles_per_rev", 3.37}, {"phase_rad", 2.0}}, {0, 0, 3.375}}},
       {"backlash", {{{"gap_m", 6e-6}}, {0, 0, std::log(2e3)}, 0.06}},  // the flank swings: a start for the closed loop
       {"screw_compliance", {{{"stiffness_N_per_m", 3e7}}, {0, std::log(2e3)}}},
-      {"position_friction", {{{"relative_slope_per_half_stroke", -0.4}}, {0}}},
+      {"position_friction",
+       {{{"relative_slope_per_half_stroke", -0.4},
+         {"viscous_slope_forth_Ns_per_m", 300.0},
+         {"viscous_slope_back_Ns_per_m", -200.0}},
+        {0, 0, 0}}},
       {"copper_loss", {{{"coefficient_W_per_Nm2", 15.0}}, {0}, 0.06, true, true}},
       {"payload", {{{"mass_kg", 3.0}}, {0}, 0.03, true, true}},
       {"cable_spring", {{{"stiffness_N_per_m", 500.0}, {"neutral_m", 0.006}}, {0, 0}}},

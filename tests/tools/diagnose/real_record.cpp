@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -100,11 +101,7 @@ TEST(ForceErrorOfTheRealRecord, IsThatOfTheInverseModelOfIdentify) {
   EXPECT_NEAR(diagnosed, identified, 0.001);
 }
 
-// Laps 1 and 3 are fitted, 2 and 4 judge. The published rigid model leaves 5.85 % of the whole record, which it was fitted
-// to.
-TEST(ForwardModel, ClosedLoopOfTheRealRecordOnLapsThatWereNotFitted) {
-  FEEDTWIN_NEEDS_SHARED("data/DATA_EMPS.mat");
-  const auto whole = whole_record();
+Case case_of(const std::vector<tools::Recording>& fit, const std::vector<tools::Recording>& judge) {
   Case data;
   data.axis = rough_axis();
   data.controller = controllers::CascadeGains{.position_per_s = 160.18,
@@ -115,21 +112,60 @@ TEST(ForwardModel, ClosedLoopOfTheRealRecordOnLapsThatWereNotFitted) {
                                               .torque_limit_Nm = 0.13986,
                                               .lead_m = lead_m,
                                               .velocity_window_samples = 2};
-  data.fit = {lap(whole, 0, 6230), lap(whole, 12460, 18690)};
-  data.holdout = {lap(whole, 6230, 12460), lap(whole, 18690, whole.size())};
+  data.fit = fit;
+  data.holdout = judge;
+  return data;
+}
+
+struct Errors {
+  double closed_loop, recalibrated, inverse, below_40_Hz, below_40_Hz_recalibrated;
+};
+
+/// Of a diagnosis on laps that it was not fitted to, with what it names printed.
+Errors errors_of(const Case& data) {
   const auto found = diagnose(data, [](std::string_view) {});
   const auto& torque = found.holdout.at("torque_cmd_Nm");
+  const Errors errors{torque.after, torque.recalibrated, found.holdout_inverse.at("torque_cmd_Nm").after,
+                      found.force_error.after, found.force_error.recalibrated};
   fmt::print("laps not fitted: closed loop {:.2f} % (recalibrated alone {:.2f} %), inverse model {:.3f} %\n",
-             100.0 * torque.after, 100.0 * torque.recalibrated, 100.0 * found.holdout_inverse.at("torque_cmd_Nm").after);
-  fmt::print("laps not fitted, inverse model below 40 Hz, |f - m| / |f|: {:.3f} %\n", 100.0 * found.force_error.after);
-  for (const auto& effect : found.effects) fmt::print("{}: {}\n", effect.hypothesis->id, effect.sentence);
-  EXPECT_LT(torque.after, 0.0385);
-  EXPECT_LT(torque.after, 0.85 * torque.recalibrated);
-  EXPECT_LT(found.holdout_inverse.at("torque_cmd_Nm").after, 0.0195);
-  EXPECT_LT(found.force_error.after, 0.018);
-  EXPECT_LT(found.force_error.after, 0.7 * found.force_error.recalibrated);
-  for (const auto& effect : found.effects)
+             100.0 * errors.closed_loop, 100.0 * errors.recalibrated, 100.0 * errors.inverse);
+  fmt::print("laps not fitted, inverse model below 40 Hz, |f - m| / |f|: {:.3f} %\n", 100.0 * errors.below_40_Hz);
+  for (const auto& effect : found.effects) {
+    fmt::print("{}: {}\n", effect.hypothesis->id, effect.sentence);
     for (const auto& [name, estimate] : effect.parameters) EXPECT_TRUE(std::isfinite(estimate.value)) << name;
+  }
+  return errors;
+}
+
+std::vector<tools::Recording> laps() {
+  const auto whole = whole_record();
+  return {lap(whole, 0, 6230), lap(whole, 6230, 12460), lap(whole, 12460, 18690), lap(whole, 18690, whole.size())};
+}
+
+// Laps 1 and 3 are fitted, 2 and 4 judge. Asked of the inverse model: 1.8 %, of the closed loop: 4.4 %. The published rigid
+// model leaves 5.85 % of the whole record, which it was fitted to.
+TEST(ForwardModel, ClosedLoopOfTheRealRecordOnLapsThatWereNotFitted) {
+  FEEDTWIN_NEEDS_SHARED("data/DATA_EMPS.mat");
+  const auto lap = laps();
+  const Errors errors = errors_of(case_of({lap[0], lap[2]}, {lap[1], lap[3]}));
+  EXPECT_LT(errors.closed_loop, 0.038);
+  EXPECT_LT(errors.closed_loop, 0.85 * errors.recalibrated);
+  EXPECT_LT(errors.inverse, 0.018);
+  EXPECT_LT(errors.below_40_Hz, 0.0168);
+  EXPECT_LT(errors.below_40_Hz, 0.7 * errors.below_40_Hz_recalibrated);
+}
+
+// The same with other laps for the fit: what is found there must not hang on which they are.
+TEST(ForwardModel, OtherLapsOfTheRealRecord) {
+  FEEDTWIN_NEEDS_SHARED("data/DATA_EMPS.mat");
+  if (std::getenv("FEEDTWIN_ALL_TESTS") == nullptr) GTEST_SKIP() << "three more diagnoses; FEEDTWIN_ALL_TESTS=1 runs them";
+  const auto lap = laps();
+  for (const auto& data : {case_of({lap[1], lap[3]}, {lap[0], lap[2]}), case_of({lap[0], lap[1]}, {lap[2], lap[3]}),
+                           case_of({lap[2], lap[3]}, {lap[0], lap[1]})}) {
+    const Errors errors = errors_of(data);
+    EXPECT_LT(errors.closed_loop, 0.044);
+    EXPECT_LT(errors.inverse, 0.019);
+  }
 }
 
 }  // namespace

@@ -77,6 +77,9 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
   constexpr double least_change = 0.03, doubtless_change = 0.05, least_deviations = 3.0, least_share = 0.2;
   constexpr double least_share_not_missed = 0.5;  // where the runs are likelier without it
   constexpr double surely_missed_nats = 300.0;
+  // missed as it may be, of neither sign: of some 150 names in three sets one was, and false (friction by the load, which
+  // bent what a hard stop's model leaves)
+  constexpr double of_nothing = 1.0;
   Index from = fit.base_count();
   Nrmse with = forward.nrmse(extended(fit.model));
   for (std::size_t e = 0; e < fit.model.effects.size();) {
@@ -88,7 +91,8 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     }
     Candidate rest = without(fit.model, e);
     auto less = forward.nrmse(extended(rest));
-    const bool told = deviations_from_nothing(fit.model.effects[e], covariance, from) > least_deviations;
+    const double from_nothing = deviations_from_nothing(fit.model.effects[e], covariance, from);
+    const bool told = from_nothing > least_deviations, nothing = from_nothing < of_nothing;
     const auto* named = found.of(hypothesis);
     const bool not_missed = named != nullptr && named->missed_nats < 0.0;
     const bool agreed =
@@ -96,8 +100,8 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
         share_of_size(fit.model.effects[e], by_inverse_model) > (not_missed ? least_share_not_missed : least_share);
     const double least = told ? least_change : doubtless_change;
     const bool sure = named != nullptr && named->missed_nats > surely_missed_nats;
-    bool has_size =
-        possible(fit.model.effects[e], fit.model.axis) && (sure || (agreed && largest_change(with, less) > least));
+    bool has_size = possible(fit.model.effects[e], fit.model.axis) && !nothing &&
+                    (sure || (agreed && largest_change(with, less) > least));
     if (has_size && !told && !sure) {  // the other numbers may take up what it does
       rest = polished_if_closer(forward, fitter, rest);
       less = forward.nrmse(extended(rest));

@@ -1,4 +1,4 @@
-// Friction that varies along the stroke: F_C and F_S times 1 + s (x - centre) / (stroke / 2).
+// Friction that varies along the stroke: F_C and F_S times 1 + s u, mu+ + e+ u, mu- + e- u, u = (x - centre) / (stroke / 2).
 
 #include <cmath>
 
@@ -12,34 +12,45 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const auto& axis = view.axis.axis;
   const Vector share = (view.track.position_m.array() - axis.stroke_centre_m).matrix() / (0.5 * axis.stroke_m);
   scale(sum.screw_sliding, (1.0 + q[0] * share.array()).matrix());
+  const auto v = view.track.centred_m_per_s.array();
+  add(sum.screw_N, (share.array() * (q[1] * v.max(0.0) + q[2] * v.min(0.0))).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_slope_per_half_stroke", q[0]}};
+  return {{"relative_slope_per_half_stroke", q[0]},
+          {"viscous_slope_forth_Ns_per_m", q[1]},
+          {"viscous_slope_back_Ns_per_m", q[2]}};
 }
 
-bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return std::abs(q[0]) > 0.005;
+bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
+  constexpr double least_share_of_viscous = 0.02;
+  const auto& mu = axis.ball_screw.viscous_Ns_per_m;
+  return std::abs(q[0]) > 0.005 || std::abs(q[1]) > least_share_of_viscous * mu.pos ||
+         std::abs(q[2]) > least_share_of_viscous * mu.neg;
 }
 
 }  // namespace
 
 Hypothesis position_friction() {
-  return {.id = "position_friction",
-          .component = "ball_screw",
-          .channel = "torque_cmd_Nm",
-          .where = Where::position,
-          .parameters = {{"relative_slope_per_half_stroke", Kind::amplitude, 1e-2, -3.0, 3.0}},
-          .shapes = {{}},
-          .apply = apply,
-          .named = named,
-          .admissible = possible,
-          .sentence =
-              "the screw's sliding friction grows along the stroke, by {relative_slope_per_half_stroke} of itself from the "
-              "middle to the end",
-
-          .confused_with = {"cable_spring", "local_friction"},
-          .friction = true};
+  return {
+      .id = "position_friction",
+      .component = "ball_screw",
+      .channel = "torque_cmd_Nm",
+      .where = Where::position,
+      .parameters = {{"relative_slope_per_half_stroke", Kind::amplitude, 1e-2, -3.0, 3.0},
+                     {"viscous_slope_forth_Ns_per_m", Kind::amplitude, 1.0},
+                     {"viscous_slope_back_Ns_per_m", Kind::amplitude, 1.0}},
+      .shapes = {{}},
+      .apply = apply,
+      .named = named,
+      .admissible = possible,
+      .sentence =
+          "the screw's friction grows along the stroke, from the middle to the end its sliding part by "
+          "{relative_slope_per_half_stroke} of itself, its viscous part by {viscous_slope_forth_Ns_per_m} N s/m forth and "
+          "{viscous_slope_back_Ns_per_m} N s/m back",
+      .confused_with = {"cable_spring", "local_friction"},
+      .friction = true,
+      .forces_too = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis

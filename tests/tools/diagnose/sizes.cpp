@@ -1,0 +1,112 @@
+// Which names go because they have no size once the closed loop has polished the numbers.
+
+#include "tools/diagnose/forward/sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/diagnose/cogged.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+using tests::Cogged, tests::silent;
+
+TEST(Sizes, WhatOtherNumbersCanTakeUpIsTakenBackWhereItsOwnAreNotTold) {
+  const Cogged made;
+  Candidate model{made.data.axis,
+                  {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}, {&hypothesis("direction_dependent_friction"), {0.4, 0.0}}}};
+  for (auto* friction_N : {&model.axis.ball_screw.coulomb_N, &model.axis.ball_screw.static_N})
+    friction_N->pos -= 0.2, friction_N->neg += 0.2;
+  for (const bool told : {true, false}) {
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    for (const auto& effect : model.effects) result.found.emplace_back().effect = effect;
+    Eigen::MatrixXd covariance = fit.covariance;
+    covariance.bottomRows(2).setZero();
+    covariance.rightCols(2).setZero();
+    covariance.bottomRightCorner<2, 2>().diagonal().setConstant(std::pow(told ? 0.01 : 0.4, 2));
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), told ? 2U : 1U);
+    EXPECT_EQ(result.found.size(), fit.model.effects.size());
+    EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
+  }
+}
+
+TEST(Sizes, WhatTheClosedLoopFindsToBeNothingIsTakenBackAndNothingElse) {
+  const Cogged made;
+  const Candidate both{made.data.axis,
+                       {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}, {&hypothesis("torque_ripple"), {1e-7, 0.0, 8.0}}}};
+  Fit fit = made.fitter.linearised(both, made.whitening);
+  SearchResult result;
+  for (const auto& effect : both.effects) {
+    Found named;
+    named.effect = effect;
+    result.found.push_back(named);
+  }
+  Eigen::MatrixXd covariance = fit.covariance;
+  drop_sizeless(made.forward, made.fitter, both, result, fit, covariance, silent);
+  ASSERT_EQ(fit.model.effects.size(), 1U);
+  EXPECT_EQ(fit.model.effects[0].hypothesis->id, "cogging");
+  ASSERT_EQ(result.found.size(), 1U);
+  EXPECT_EQ(result.found[0].effect.hypothesis->id, "cogging");
+  EXPECT_EQ(covariance.rows(), fit.base_count() + static_cast<Index>(freedom(hypothesis("cogging"))));
+}
+
+TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
+  const Cogged made;
+  const auto left_of = [&made](double by_inverse_model_Nm, double missed_nats) {
+    const auto with = [&made](double amplitude_Nm) {
+      return Candidate{made.data.axis, {{&hypothesis("cogging"), {amplitude_Nm, 0.0, 8.0}}}};
+    };
+    Fit fit = made.fitter.linearised(with(0.01), made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = fit.model.effects[0];
+    result.found[0].missed_nats = missed_nats;
+    Eigen::MatrixXd covariance = fit.covariance;
+    drop_sizeless(made.forward, made.fitter, with(by_inverse_model_Nm), result, fit, covariance, silent);
+    EXPECT_EQ(result.found.size(), fit.model.effects.size());
+    return fit.model.effects.size();
+  };
+  EXPECT_EQ(left_of(0.02, 0.0), 1U);
+  EXPECT_EQ(left_of(0.1, 0.0), 0U);
+  EXPECT_EQ(left_of(0.1, 1000.0), 1U) << "the closed loop misses it";
+  EXPECT_EQ(left_of(0.03, 5.0), 1U);
+  EXPECT_EQ(left_of(0.03, -5.0), 0U) << "the closed loop does better without";
+}
+
+TEST(Sizes, WhatComesOutAtASizeThatCannotBeIsTakenBackHoweverMuchItIsMissed) {
+  const Cogged made;
+  for (const double rise : {0.1, 0.02}) {
+    const Candidate model{made.data.axis, {{&hypothesis("dwell_breakaway"), {rise, 1.0}}}};
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = model.effects[0];
+    result.found[0].missed_nats = 1000.0;
+    Eigen::MatrixXd covariance = 1e-6 * fit.covariance;
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), rise > 0.03 ? 1U : 0U) << rise;
+  }
+}
+
+TEST(Sizes, WhatMayBeOfEitherSignIsTakenBackHoweverMuchItIsMissed) {
+  const Cogged made;
+  const Candidate model{made.data.axis, {{&hypothesis("direction_dependent_friction"), {20.0, 0.0}}}};
+  for (const double deviation_N : {15.0, 40.0}) {
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = model.effects[0];
+    result.found[0].missed_nats = 1000.0;
+    Eigen::MatrixXd covariance = fit.covariance;
+    covariance.bottomRows(2).setZero();
+    covariance.rightCols(2).setZero();
+    covariance.bottomRightCorner<2, 2>().diagonal().setConstant(std::pow(deviation_N, 2));
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), deviation_N < 20.0 ? 1U : 0U) << deviation_N;
+  }
+}
+
+}  // namespace
+}  // namespace feedtwin
