@@ -110,6 +110,27 @@ TEST(Confirm, WhatTheClosedLoopItselfHasNamedIsNotAsked) {
   }
 }
 
+// Numbers of the inverse model may be so far off that the simulation is as bad without the name.
+TEST(Confirm, WhatAllUnseenFoldsBearOutIsAskedOnceMoreWithBothPolished) {
+  const Cogged made;
+  Candidate off{made.data.axis, {{&hypothesis("cogging"), {0.01, 0.0, 8.0}}}};
+  for (auto* friction_N : {&off.axis.ball_screw.coulomb_N, &off.axis.ball_screw.static_N})
+    friction_N->pos *= 1.5, friction_N->neg *= 1.5;
+  const auto left_of = [&](const Active& active, bool held_everywhere) {
+    off.effects = {active};
+    Fit fit = made.fitter.linearised(off, made.whitening);
+    SearchResult result;
+    result.whitening = made.whitening;
+    result.found.emplace_back().effect = active;
+    result.found[0].held_everywhere = held_everywhere;
+    keep_confirmed(made.forward, made.fitter, result, fit, silent);
+    return result.found.size();
+  };
+  EXPECT_EQ(left_of({&hypothesis("cogging"), {0.01, 0.0, 8.0}}, true), 1U);
+  EXPECT_EQ(left_of({&hypothesis("cogging"), {0.01, 0.0, 8.0}}, false), 0U) << "then this test shows nothing";
+  EXPECT_EQ(left_of({&hypothesis("torque_ripple"), {0.05, 0.0, 3.0}}, true), 0U);
+}
+
 TEST(Missed, ANameThatTheClosedLoopDoesAsWellWithoutIsTakenBackAndTheRightOneStays) {
   const Cogged made;
   Candidate model{made.data.axis,

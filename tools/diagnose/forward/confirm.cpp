@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/ruling.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -20,6 +21,24 @@ Confirmation confirm(const ForwardModel& forward, const Fitter& fitter, const Wh
   return found;
 }
 
+namespace {
+
+/// Numbers of the inverse model may simulate so badly that no name's absence shows. Where all that was not seen bears a name
+/// out, both go on from there in closed loop before it goes: right names then had 221 nats and 3.3 deviations and more,
+/// false ones -4354 to 1 and 0.8.
+bool missed_once_polished(const ForwardModel& forward, const Fitter& fitter, const Found* named, const Fit& with,
+                          const Fit& without, const std::function<void(std::string_view)>& progress) {
+  if (named == nullptr || !named->held_everywhere) return false;
+  Ruling one = rule(with, forward, fitter), rest = rule_beside(one, without, forward, fitter, SlopesOf::anew);
+  contest(one, rest, forward, fitter);
+  const double nats = one.value - rest.value, deviations = compared(one.likelihood, rest.likelihood).deviations;
+  progress(fmt::format("closed loop, both polished, with {}: {:+.0f} nats, {:+.1f} deviations", named->effect.hypothesis->id,
+                       nats, deviations));
+  return nats > clearly_nats && deviations > clearly_deviations;
+}
+
+}  // namespace
+
 void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                     const std::function<void(std::string_view)>& progress) {
   for (std::size_t e = fit.model.effects.size(); e-- > 0;) {
@@ -30,6 +49,7 @@ void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchRes
     progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
                          seen.channel.empty() ? "no channel" : seen.channel, seen.error_ratio));
     if (seen.error_ratio > hypothesis->least_error_ratio) continue;
+    if (missed_once_polished(forward, fitter, found.of(hypothesis), fit, seen.without, progress)) continue;
     fit = std::move(seen.without);
     std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
   }
