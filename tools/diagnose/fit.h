@@ -59,6 +59,8 @@ class Fitter {
   void take_effects(std::vector<plant::EffectSetting> effects) { nominal_.effects = std::move(effects); }
   /// (value - nominal) in tolerances.
   [[nodiscard]] Vector deviations(const plant::AxisParameters& axis) const;
+  /// The sum of their squares, in tolerances: how far an axis is from the file.
+  [[nodiscard]] double squared_tolerances(const plant::AxisParameters& axis) const { return deviations(axis).squaredNorm(); }
   /// What one tolerance is, in the parameter's unit.
   [[nodiscard]] double tolerance(std::size_t parameter) const;
 

@@ -94,14 +94,11 @@ TEST(Laws, ForceAtSteadySpeed) {
        [](const Nominal& n, double, const Steady& s) {
          return n.all_N() + 0.5 * (1.0 - std::exp(-s.time_s / 2.0)) * (n.screw_sliding_N + n.screw_viscous_N);
        }},
-      {{"position_friction", {0.0, 300.0, -500.0}, {}},
+      {{"position_friction", {2.5, 3e4, -5e4}, {}},
        0.0,
        [](const Nominal& n, double v, const Steady& s) {
-         return n.all_N() + s.position_m / 10.0 * (v > 0.0 ? 300.0 : -500.0) * v;
+         return n.all_N() + s.position_m / 10.0 * (2.5 * n.screw_sliding_N + (v > 0.0 ? 3e4 : -5e4) * v);
        }},
-      {{"position_friction", {0.8, 0.0, 0.0}, {}},
-       0.0,
-       [](const Nominal& n, double, const Steady& s) { return n.all_N() + 0.8 * s.position_m / 10.0 * n.screw_sliding_N; }},
       {{"load_dependent_friction", {0.15, 0.0}, {}}, 400.0, loaded_by(0.0)},
       {{"load_dependent_friction", {0.15, 1.0}, {}}, 400.0, loaded_by(1.0)},
       {{"direction_dependent_friction", {12.0, 200.0}, {}},

@@ -54,6 +54,9 @@ TEST_F(OfTheTable, FrictionOrMassByItselfHasNone) {
   mass.guide_mass_kg *= 1.8;
   EXPECT_FALSE(shift(friction).of_all_together) << "a guide that is cold";
   EXPECT_FALSE(shift(mass).of_all_together) << "a table that is heavier";
+  mass.guide_mass_kg = 1.15 * plant::source_axis().guide_mass_kg;
+  mass.guide.coulomb_N.pos *= 3.0;
+  EXPECT_FALSE(shift(mass).of_all_together) << "off by shares that have nothing in common";
 }
 
 TEST_F(OfTheTable, NumbersOffEachByItselfHaveNone) {

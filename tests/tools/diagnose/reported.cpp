@@ -53,6 +53,13 @@ TEST(SentenceOf, WhatTheClosedLoopAloneTellsIsNoShareOfTheInverseModelsRemainder
   EXPECT_NE(sentence_of(effect).find("simulated motion tells it"), std::string::npos);
 }
 
+TEST(SentenceOf, WhatAllNumbersCouldMakeUpForTogetherSaysThatThatTellsIt) {
+  NamedEffect effect = named("sensor_gain", "force_sensor_gain", 0.85);
+  effect.by_closed_loop = effect.by_common_shift = true;
+  EXPECT_NE(sentence_of(effect).find("off by the same share"), std::string::npos);
+  EXPECT_EQ(sentence_of(effect).find("simulated motion tells it"), std::string::npos);
+}
+
 TEST(ChannelOf, AGainIsReadOffTheSensorThatHasIt) {
   const Hypothesis& gain = hypothesis("sensor_gain");
   EXPECT_EQ(channel_of({&gain, {0.1, 0.0, 0.0}}), "torque_sensor_Nm");

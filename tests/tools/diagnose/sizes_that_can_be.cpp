@@ -23,6 +23,16 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_FALSE(finding(1.9, 1.3e-5)) << "what is left of a torque constant";
 }
 
+TEST(PositionFriction, MayBeOfTheViscousPartAlone) {
+  const auto can_be = [](double share, double forth, double back) {
+    return possible({&hypothesis("position_friction"), {share, forth, back}}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(0.1, 0.0, 0.0));
+  EXPECT_TRUE(can_be(0.0, 100.0, 0.0));
+  EXPECT_TRUE(can_be(0.0, 0.0, -100.0));
+  EXPECT_FALSE(can_be(0.001, 5.0, -5.0)) << "of neither";
+}
+
 TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {
   const auto can_be = [](double mass_kg) { return possible({&hypothesis("payload"), {mass_kg}}, plant::source_axis()); };
   EXPECT_TRUE(can_be(13.0));

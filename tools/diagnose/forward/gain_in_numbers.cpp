@@ -19,10 +19,6 @@ bool can_be_told(const Fitter& fitter, const Candidate& model) {
   return fitter.model().tracks().front().force_sensor_N.size() > 0 && !has(model, hypothesis("sensor_gain"));
 }
 
-double squared_tolerances(const Fitter& fitter, const Candidate& model) {
-  return fitter.deviations(model.axis).squaredNorm();
-}
-
 /// The reading as it was, of a table that is as much less as the sensor shows too much.
 Candidate with_gain(const Candidate& model, double gain) {
   constexpr double force_sensor = 1.0;
@@ -100,13 +96,13 @@ std::optional<Ruling> ask_for_gain_in_numbers(const ForwardModel& forward, const
   Ruling with = likelier(fitter.linearised(with_gain(now.model, shift.factor), found.whitening), forward, fitter);
   contest(with, now, forward, fitter);
   const Active& gain = with.model.effects.back();
-  const double fall = squared_tolerances(fitter, now.model) - squared_tolerances(fitter, with.model);
+  const double fall = fitter.squared_tolerances(now.model.axis) - fitter.squared_tolerances(with.model.axis);
   progress(fmt::format(
       "the table's numbers are {:.2f} times the file's together; closed loop, with {}: {:+.0f} nats, {:.1f} squared "
       "tolerances nearer to nominal",
       shift.factor, in_words(gain, with.model.axis), with.value - now.value, fall));
   if (with.value < now.value || fall < 0.0 || !can_be_named(gain, with.model.axis)) return settled;
-  found.found.push_back(told(gain, shift, fall / (fall + squared_tolerances(fitter, with.model))));
+  found.found.push_back(told(gain, shift, fall / (fall + fitter.squared_tolerances(with.model.axis))));
   fit = with.fit;
   return with;
 }

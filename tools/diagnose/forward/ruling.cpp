@@ -41,7 +41,7 @@ std::size_t alike_to_begin_with(const std::vector<const Hypothesis*>& some, cons
 }
 
 Ruling judged(Ruling ruling, const Fitter& fitter) {
-  ruling.value = ruling.likelihood.total() - 0.5 * fitter.deviations(ruling.model.axis).squaredNorm() -
+  ruling.value = ruling.likelihood.total() - 0.5 * fitter.squared_tolerances(ruling.model.axis) -
                  nats_per_parameter * freedom(ruling.model);
   return ruling;
 }

@@ -205,16 +205,13 @@ class SecondLook {
     return judged(Answer{&question.score, std::move(one)}, now);
   }
 
-  /// How far the numbers are from nominal.
-  [[nodiscard]] double squared_tolerances(const Ruling& of) const { return fitter_.deviations(of.model.axis).squaredNorm(); }
-
   [[nodiscard]] Answer judged(Answer answer, const Ruling& now) const {
     const Hypothesis& h = *answer.score->hypothesis;
     const Ruling& one = answer.ruling;
     const auto seen = closer(h.only_readings ? least_errors_ : errors_, forward_.nrmse(extended(one.model)), floor_,
                              one.model.effects.back());
     const double nats = one.value - now.value, deviations = compared(one.likelihood, now.likelihood).deviations;
-    const double nearer_nominal = squared_tolerances(now) - squared_tolerances(one);
+    const double nearer_nominal = fitter_.squared_tolerances(now.model.axis) - fitter_.squared_tolerances(one.model.axis);
     progress_(
         fmt::format("closed loop, with {}: {:+.0f} nats, {:+.1f} deviations, numbers {:+.0f} squared tolerances nearer to "
                     "nominal, {} {:.2f} times as close, {:.0f} %",
