@@ -206,15 +206,6 @@ TEST(LocalFriction, IsFoundOnTheScrewWhereAForceSensorTells) {
   }
 }
 
-TEST(SublinearViscous, IsBelowOneAndToldFromOne) {
-  const auto can_be = [](double exponent) {
-    return possible({&hypothesis("sublinear_viscous"), {1.0 - exponent}}, plant::source_axis());
-  };
-  EXPECT_TRUE(can_be(0.98));
-  EXPECT_FALSE(can_be(0.995)) << "linear";
-  EXPECT_FALSE(can_be(1.05)) << "drag";
-}
-
 // The forces do not ask a law that only scales friction: so it must not add any.
 TEST(LawsOfFriction, AddForceWhereTheySaySoAndElsewhereOnlyScale) {
   const Track track = make_track(runs_of(plant::source_axis(), true, true).front(), plant::source_axis());

@@ -33,6 +33,15 @@ TEST(PositionFriction, MayBeOfTheViscousPartAlone) {
   EXPECT_FALSE(can_be(0.001, 5.0, -5.0)) << "of neither";
 }
 
+TEST(SublinearViscous, IsBelowOneAndToldFromOne) {
+  const auto can_be = [](double exponent) {
+    return possible({&hypothesis("sublinear_viscous"), {1.0 - exponent}}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(0.98));
+  EXPECT_FALSE(can_be(0.995)) << "linear";
+  EXPECT_FALSE(can_be(1.05)) << "drag";
+}
+
 TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {
   const auto can_be = [](double mass_kg) { return possible({&hypothesis("payload"), {mass_kg}}, plant::source_axis()); };
   EXPECT_TRUE(can_be(13.0));
