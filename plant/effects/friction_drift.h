@@ -1,9 +1,10 @@
 #pragma once
 // Friction that changes with time alone: running-in, or lubrication that redistributes within a session.
 //
-//   F_C, F_S and mu of the ball screw times 1 + c (1 - exp(-t / T))
+//   F_C, F_S and mu of the ball screw times 1 + c + (b - c) exp(-t / T)
 //
-// c = relative_change, T = time_constant_s, t since the run began. T at its lowest is a step between sessions.
+// c = relative_change, T = time_constant_s, b = initial_change, t since the run began. b is what grease or wear did between
+// sessions; T at its lowest is a step between them too.
 
 #include <array>
 
@@ -15,7 +16,7 @@ namespace feedtwin::plant::effects {
 class FrictionDrift final : public Effect {
  public:
   FrictionDrift(const EffectContext& /*context*/, const EffectSetting& setting)
-      : change_(setting.values[0], setting.values[1]) {}
+      : change_(setting.values[0], setting.values[1], setting.values[2]) {}
 
   void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.time_s); }
 
@@ -34,6 +35,7 @@ class FrictionDrift final : public Effect {
 inline constexpr std::array friction_drift_parameters{
     EffectParameter{"relative_change", "1", -0.9, 5.0, {}, 0.0, "change of the friction after a long time, over the nominal; positive: more friction"},
     EffectParameter{"time_constant_s", "s", 0.001, 1000000.0, {}, {}, "time after which 63 % of the change is reached"},
+    EffectParameter{"initial_change", "1", -0.9, 5.0, 0.0, {}, "change that a run begins with"},
 };
 // clang-format on
 

@@ -1,10 +1,10 @@
 #pragma once
 // The warming screw grows from its fixed bearing.
 //
-//   x_table = x + e (1 - exp(-t / T)) (x - x_f)
+//   x_table = x + (e + (b - e) exp(-t / T)) (x - x_f)
 //
-// e = relative_growth (11.7e-6 a kelvin for steel), T = time_constant_s, x_f = fixed_end_m, t since the run began. Seen by
-// the scale alone.
+// e = relative_growth (11.7e-6 a kelvin for steel), T = time_constant_s, x_f = fixed_end_m, b = initial_growth, t since the
+// run began. Seen by the scale alone.
 
 #include <array>
 #include <cmath>
@@ -16,15 +16,18 @@ namespace feedtwin::plant::effects {
 class ScrewGrowth final : public Effect {
  public:
   ScrewGrowth(const EffectContext& /*context*/, const EffectSetting& setting)
-      : growth_(setting.values[0]), time_constant_s_(setting.values[1]), fixed_m_(setting.values[2]) {}
+      : growth_(setting.values[0]),
+        time_constant_s_(setting.values[1]),
+        fixed_m_(setting.values[2]),
+        before_(setting.values[3]) {}
 
   void tick(const TickStart& start) noexcept override {
-    share_ = growth_ * (1.0 - std::exp(-(start.time_s + start.tick_s) / time_constant_s_));
+    share_ = growth_ + (before_ - growth_) * std::exp(-(start.time_s + start.tick_s) / time_constant_s_);
   }
   void sense(SensedTravel& travel) noexcept override { travel.scale_m += share_ * (travel.shaft_m - fixed_m_); }
 
  private:
-  double growth_, time_constant_s_, fixed_m_;
+  double growth_, time_constant_s_, fixed_m_, before_;
   double share_ = 0.0;
 };
 
@@ -34,6 +37,7 @@ inline constexpr std::array screw_growth_parameters{
     EffectParameter{"relative_growth", "1", -0.001, 0.001, {}, 0.0, "growth for each metre from the fixed bearing after a long time; positive: longer"},
     EffectParameter{"time_constant_s", "s", 0.001, 1000000.0, 600.0, {}, "time after which 63 % of the growth is reached"},
     EffectParameter{"fixed_end_m", "m", -100.0, 100.0, -0.075, {}, "table position of the fixed bearing"},
+    EffectParameter{"initial_growth", "1", -0.001, 0.001, 0.0, {}, "growth for each metre that a run begins with: it begins warm"},
 };
 // clang-format on
 

@@ -1,10 +1,10 @@
 #pragma once
 // Warm-up: the work done against friction heats the grease, and viscous friction falls.
 //
-//   mu of the ball screw times 1 - r (1 - exp(-W / E))
+//   mu of the ball screw times 1 - r - (b - r) exp(-W / E)
 //
-// r = viscous_reduction, E = energy_scale_J, W the work done on the ball screw's friction since the run began: every
-// run begins cold.
+// r = viscous_reduction, E = energy_scale_J, W the work done on the ball screw's friction since the run began, b =
+// initial_reduction: 0 where a run begins cold.
 
 #include <array>
 
@@ -16,7 +16,7 @@ namespace feedtwin::plant::effects {
 class ThermalFriction final : public Effect {
  public:
   ThermalFriction(const EffectContext& /*context*/, const EffectSetting& setting)
-      : change_(-setting.values[0], setting.values[1]) {}
+      : change_(-setting.values[0], setting.values[1], -setting.values[2]) {}
 
   void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.screw_friction_J); }
 
@@ -34,6 +34,7 @@ class ThermalFriction final : public Effect {
 inline constexpr std::array thermal_friction_parameters{
     EffectParameter{"viscous_reduction", "1", -2.0, 0.95, {}, 0.0, "share of the viscous friction that is lost when warm; negative: friction rises"},
     EffectParameter{"energy_scale_J", "J", 0.01, 10000000.0, {}, {}, "friction work after which 63 % of the change is reached"},
+    EffectParameter{"initial_reduction", "1", -2.0, 0.95, 0.0, {}, "share that is lost when a run begins: it begins warm"},
 };
 // clang-format on
 

@@ -29,6 +29,7 @@
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/screen.h"
 #include "tools/diagnose/sentence.h"
+#include "tools/diagnose/told_as_one.h"
 #include "tools/diagnose/unknown.h"
 #include "tools/diagnose/verdict.h"
 
@@ -183,6 +184,10 @@ class Diagnosing {
         progress_(fmt::format("{} is of a size that other physics has too: not named", in_words(*now, fit_.model.axis)));
     }
     tell_as_one_lead(result_);
+    tell_as_one_wave(result_);
+    tell_as_one_change(result_);
+    const Track& track = model_.tracks().front();
+    tell_as_one_growth(result_, static_cast<double>(track.size) * track.sample_s);
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
       result_.effects.push_back(std::move(*difference));
     if (auto payload = unknown_ ? std::nullopt : payload_in_mass(fitter_, fit_, covariance_))

@@ -203,12 +203,17 @@ Whitening Fitter::colour_of(const Vector& residual) const {
 }
 
 Fit Fitter::fit_with_colour(const Candidate& start, Whitening& whitening, int rounds, int iterations) const {
-  Fit best;
+  // what a wave of the lead had made of the scale's colour left all else unweighed, and everything seemed missing
+  constexpr int most_more = 3;
+  constexpr double settled = 0.2;  // change of the cost with its colour
   Candidate at = start;
-  for (int round = 0; round < rounds; ++round) {
-    best = fit(at, whitening, iterations);
+  bool done = false;
+  for (int round = 0; round < rounds || (!done && round < rounds + most_more); ++round) {
+    const Fit best = fit(at, whitening, iterations);
     at = best.model;
     whitening = colour_of(best.residual);
+    const double cost = whitened(at, best.residual, whitening).squaredNorm();
+    done = std::abs(cost - best.cost) < settled * cost;
   }
   return linearised(at, whitening);
 }

@@ -45,7 +45,7 @@ struct Contribution {
   Vector screw_sliding, screw_viscous;     ///< factors on F_C and F_S, on mu, along the run
 };
 
-/// Runs that a line has a phase of its own in; any further one shares the last one's.
+/// Runs that a line has a phase of its own in, or a state that it begins with; any further one shares the last one's.
 inline constexpr std::size_t line_runs = 4;
 
 /// Of a screw, its nut and bearings against the table: to begin with, until the closed loop has it.
@@ -126,6 +126,11 @@ struct Hypothesis {
   double most_told_by_runs = 1e300;
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
+
+  /// Of a state that each run begins with, as the run before it may have left it: the plant's number that holds it, and
+  /// which working parameter is the first run's (others follow; the first run's is fixed at none, the numbers hold it).
+  std::string_view state = {};
+  std::size_t first_state = 0;
 
   /// Where it acts, if its numbers say so.
   std::string_view (*component_for)(std::span<const double> q) = nullptr;

@@ -23,7 +23,15 @@ struct Jump {
   double stay;         ///< counts that a scale still misses some rows later; 0 without one
 };
 
-/// Counts that each sample's step is short of what the steps beside it are; of the table's own motion where a scale has it.
+/// What the median says where the cubic says about as much; otherwise the cubic's, if that is of the same sign.
+double agreed(double by_median, double by_cubic) {
+  constexpr double about = 0.7;
+  const double share = by_median == 0.0 ? 0.0 : by_cubic / by_median;
+  return share >= about ? by_median : share > 0.0 ? by_cubic : 0.0;
+}
+
+/// Counts that each sample's step is short of what the steps beside it are, by their median and along a cubic through them:
+/// where the axis speeds up hard the middle of a bend is no jump. Of the table's own motion where a scale has it.
 std::vector<double> short_of(const Recording& run, double count_m) {
   const auto shown = run.at(channel::position_m), table = run.at(channel::scale_position_m);
   std::vector<double> step(shown.size(), 0.0), lost(shown.size(), 0.0);
@@ -34,7 +42,8 @@ std::vector<double> short_of(const Recording& run, double count_m) {
     std::copy_n(step.begin() + static_cast<std::ptrdiff_t>(k - beside), beside, around.begin());
     std::copy_n(step.begin() + static_cast<std::ptrdiff_t>(k + 1), beside, around.begin() + beside);
     std::ranges::sort(around);
-    lost[k] = 0.5 * (around[beside - 1] + around[beside]) - step[k];
+    const double cubic = (4.0 * (step[k - 1] + step[k + 1]) - step[k - 2] - step[k + 2]) / 6.0;
+    lost[k] = agreed(0.5 * (around[beside - 1] + around[beside]) - step[k], cubic - step[k]);
   }
   return lost;
 }

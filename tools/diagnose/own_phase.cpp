@@ -1,5 +1,8 @@
 #include "tools/diagnose/own_phase.h"
 
+#include <algorithm>
+#include <span>
+
 #include "tools/diagnose/hypotheses/shapes.h"
 #include "tools/linear_systems.h"
 
@@ -19,22 +22,33 @@ void set_line(Active& active, std::size_t run, std::complex<double> line) {
   active.q[2 * run + 1] = line.imag();
 }
 
-/// Sine and cosine of each run by least squares, everything else as it is.
-void take_phases(const InverseModel& unseen, const Whitening& whitening, Candidate& model, std::size_t effect) {
-  Active& line = model.effects[effect];
-  const auto contacts = unseen.contacts(model.axis, model.effects);
-  const auto left = [&] { return whitening.applied(unseen, unseen.residual(model.axis, model.effects, contacts)); };
-  for (std::size_t run = 0; run < line_runs; ++run) set_line(line, run, 0.0);
+/// Some of an effect's numbers by least squares from none, everything else as it is.
+/// @param step for differences: 1 where it acts in proportion
+void take_from_runs(const InverseModel& unseen, const Whitening& whitening, Candidate& model, std::size_t effect,
+                    std::size_t first, std::size_t count, double step) {
+  Active& own = model.effects[effect];
+  const auto numbers = std::span(own.q).subspan(first, count);
+  const auto left = [&] { return whitening.applied(unseen, unseen.residual(model.axis, model.effects)); };
+  std::ranges::fill(numbers, 0.0);
   const Vector without = left();
-  const std::size_t runs = std::min(line_runs, unseen.tracks().size());
-  Eigen::MatrixXd columns(without.size(), static_cast<Index>(2 * runs));
-  for (std::size_t j = 0; j < 2 * runs; ++j) {
-    line.q[j] = 1.0;
-    columns.col(static_cast<Index>(j)) = without - left();
-    line.q[j] = 0.0;
+  Eigen::MatrixXd columns(without.size(), static_cast<Index>(count));
+  for (std::size_t j = 0; j < count; ++j) {
+    numbers[j] = step;
+    columns.col(static_cast<Index>(j)) = (without - left()) / step;
+    numbers[j] = 0.0;
   }
   const Vector found = least_squares(columns, without);
-  for (std::size_t j = 0; j < 2 * runs; ++j) line.q[j] = found[static_cast<Index>(j)];
+  for (std::size_t j = 0; j < count; ++j) numbers[j] = found[static_cast<Index>(j)];
+}
+
+/// What the runs begin with, where those that were fitted differ in that; otherwise as the first of them.
+void take_states(const InverseModel& unseen, const Whitening& whitening, Candidate& model, std::size_t effect) {
+  constexpr double step = 1e-2;  // of a change; of a growth all are in proportion
+  const bool differ = states_differ(model.effects[effect]);
+  auto& own = model.effects[effect];
+  const std::size_t first = own.hypothesis->first_state;
+  std::ranges::fill(std::span(own.q).subspan(first, line_runs), 0.0);
+  if (differ) take_from_runs(unseen, whitening, model, effect, first, std::min(line_runs, unseen.tracks().size()), step);
 }
 
 }  // namespace
@@ -57,12 +71,14 @@ std::complex<double> common_line(const Active& line) {
 Candidate for_unseen(const InverseModel& unseen, const Whitening& whitening, const Candidate& fitted) {
   Candidate model = fitted;
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    if (!model.effects[e].hypothesis->state.empty()) take_states(unseen, whitening, model, e);
     if (model.effects[e].hypothesis->line_of == nullptr) continue;
     if (phases_agree(model.effects[e])) {
       const auto line = common_line(model.effects[e]);
       for (std::size_t run = 0; run < line_runs; ++run) set_line(model.effects[e], run, line);
     } else {
-      take_phases(unseen, whitening, model, e);
+      for (std::size_t run = 0; run < line_runs; ++run) set_line(model.effects[e], run, 0.0);
+      take_from_runs(unseen, whitening, model, e, 0, 2 * std::min(line_runs, unseen.tracks().size()), 1.0);
     }
   }
   return model;

@@ -10,7 +10,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] bool phases_agree(const Active& line);
 /// Sine and cosine of the line over all runs that were fitted.
 [[nodiscard]] std::complex<double> common_line(const Active& line);
-/// The model for runs that it was not fitted to.
+/// The model for runs that it was not fitted to: phases, and states that runs begin with, are theirs.
 [[nodiscard]] Candidate for_unseen(const InverseModel& unseen, const Whitening& whitening, const Candidate& fitted);
 
 }  // namespace feedtwin::tools::diagnosis

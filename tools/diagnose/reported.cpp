@@ -38,7 +38,7 @@ bool hidden(const Active& active, const plant::AxisParameters& axis, std::size_t
 
 /// A line has a phase in each of several runs, and of those that are not there nothing is known.
 bool of_no_run(const Active& active, std::size_t parameter) {
-  const bool line = active.hypothesis->where == Where::frequency;
+  const bool line = active.hypothesis->line_of != nullptr;
   return line && active.hypothesis->parameters[parameter].kind == Kind::amplitude && !has_line(active.q, parameter / 2);
 }
 
@@ -142,15 +142,14 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
   if (effect.hypothesis->line_of != nullptr)
     effect.sentence += phases_agree(*now) ? " All runs share its phase."
                                           : " Each run has a phase of its own; a held-out run's is taken from that run.";
+  if (!effect.hypothesis->state.empty() && states_differ(*now)) {
+    const auto [low, high] = states_from_to(*now);
+    effect.sentence += fmt::format(
+        " Each run begins as what was before has left it, from {:.2g} to {:.2g} of that; a held-out "
+        "run's is taken from that run.",
+        low, high);
+  }
   return effect;
-}
-
-void tell_as_one_lead(Diagnosis& result) {
-  const auto mended = std::ranges::find(result.setup, "wrong_lead", &SetupFault::id);
-  const auto left = std::ranges::find(result.effects, &hypothesis("lead_error"), &NamedEffect::hypothesis);
-  if (mended == result.setup.end() || left == result.effects.end()) return;
-  mended->parameters.front().value *= 1.0 + left->parameters.front().second.value;
-  result.effects.erase(left);
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -17,9 +17,6 @@ inline constexpr double for_the_laws = 2.0;
 /// @param gain what the cost would rise by, were there none of it (Wald)
 [[nodiscard]] NamedEffect held_by_numbers(const Hypothesis& name, double gain, const Fit& fit);
 
-/// A lead that the set-up check has mended: what is left of its error is told with it, not as another finding.
-void tell_as_one_lead(Diagnosis& result);
-
 /// The nominal numbers that the data move beyond their own uncertainty.
 [[nodiscard]] std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit,
                                                      const Eigen::MatrixXd& covariance);

@@ -42,6 +42,7 @@ struct Found {
   bool by_closed_loop = false;            ///< asked for by the closed loop alone
   bool by_runs_alone = false;             ///< and there no channel says so
   bool by_common_shift = false;           ///< numbers could do it, all off by the same share
+  double error_ratio = 1.0;               ///< how many times as far off the closed loop is without it, its numbers refitted
   double missed_nats = 0.0;  ///< how much less likely the runs are in closed loop without it, all other numbers free
 };
 

@@ -26,6 +26,15 @@ bool only_a_bite(const Structure& after, const Squares& squares) {
   return after.share > least_share && after.structured_N() > least_N && squares.share_left() > least_left;
 }
 
+/// Most of what the runs are off by is the name's: a hidden compensation that the numbers had half taken up left 9 times as
+/// much without it, of which the structure that was left with it was a bite.
+bool explains_most(const SearchResult& found) {
+  constexpr double least_ratio = 5.0;
+  return std::ranges::any_of(found.found, [](const Found& one) {
+    return one.error_ratio > least_ratio && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
+  });
+}
+
 /// A name that every unseen fold bears out stays whatever else is left over, if it is more than a bite.
 bool certain(const SearchResult& found) {
   return std::ranges::any_of(found.found, [](const Found& one) {
@@ -70,7 +79,8 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
       (after.share > least_share && after.structured_N() > least_N) ||
       (after.share > most_of_it && after.structured_N() > least_of_most_N) ||
       (nothing_named && after.share > where_nothing_is_named && after.structured_N() > least_where_nothing_is_named_N);
-  return only_a_bite(after, squares) || (enough && squares.share_left() > unexplained && !certain(found));
+  return (only_a_bite(after, squares) && !explains_most(found)) ||
+         (enough && squares.share_left() > unexplained && !certain(found));
 }
 
 bool rests_on_force(const Hypothesis& h) {

@@ -84,15 +84,15 @@ TEST(Laws, ForceAtSteadySpeed) {
        [](const Nominal& n, double v, const Steady&) {
          return n.all_N() + n.screw_viscous_N * (std::pow(std::abs(v) / 0.1, -0.4) - 1.0);
        }},
-      {{"thermal_friction", {0.4, 30.0}, {}},
+      {{"thermal_friction", {0.4, 30.0, 0.1}, {}},
        0.0,
        [](const Nominal& n, double, const Steady& s) {
-         return n.all_N() - 0.4 * (1.0 - std::exp(-s.screw_work_J / 30.0)) * n.screw_viscous_N;
+         return n.all_N() - (0.4 - 0.3 * std::exp(-s.screw_work_J / 30.0)) * n.screw_viscous_N;
        }},
-      {{"friction_drift", {0.5, 2.0}, {}},
+      {{"friction_drift", {0.5, 2.0, -0.2}, {}},
        0.0,
        [](const Nominal& n, double, const Steady& s) {
-         return n.all_N() + 0.5 * (1.0 - std::exp(-s.time_s / 2.0)) * (n.screw_sliding_N + n.screw_viscous_N);
+         return n.all_N() + (0.5 - 0.7 * std::exp(-s.time_s / 2.0)) * (n.screw_sliding_N + n.screw_viscous_N);
        }},
       {{"position_friction", {2.5, 3e4, -5e4}, {}},
        0.0,
@@ -204,13 +204,14 @@ TEST(Laws, HiddenCompensationFollowsWhatTheDriveIsToldToReach) {
 
 TEST(Laws, ScaleShowsTheGeometry) {
   AxisParameters p = source_axis();
-  p.effects = {
-      {"lead_error", {2e-4}, {}}, {"cyclic_lead_error", {3e-6, 2.0, 0.5}, {}}, {"screw_growth", {5e-5, 0.5, -0.07}, {}}};
+  p.effects = {{"lead_error", {2e-4}, {}},
+               {"cyclic_lead_error", {3e-6, 2.0, 0.5}, {}},
+               {"screw_growth", {5e-5, 0.5, -0.07, 2e-5}, {}}};
   FeedAxis axis(p);
   for (int i = 0; i < 2000; ++i) {
     const auto& s = axis.step({0.3 * std::sin(0.01 * i)}, tick_s);
     const double x = s.position_m;
-    const double growth = 5e-5 * (1.0 - std::exp(-(i + 1) * tick_s / 0.5)) * (x + 0.07);
+    const double growth = (5e-5 - 3e-5 * std::exp(-(i + 1) * tick_s / 0.5)) * (x + 0.07);
     EXPECT_NEAR(s.scale_position_m - x, 2e-4 * x + 3e-6 * std::sin(2.0 * rad_per_m * x + 0.5) + growth, 1e-8) << i;
   }
 }

@@ -32,7 +32,8 @@ const std::map<std::string_view, Trial>& trials() {
   static const std::map<std::string_view, Trial> all{
       {"cogging", {{{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}, {"phase_rad", 0.7}}, {0, 0, 8}}},
       {"torque_ripple", {{{"relative_amplitude", 0.05}, {"cycles_per_rev", 6.0}, {"phase_rad", -1.1}}, {0, 0, 6}}},
-      {"rev_ripple", {{{"amplitude_N", 5.0}, {"cycles_per_rev", 3.37}, {"phase_rad", 2.0}}, {0, 0, 3.375}}},
+      {"rev_ripple",
+       {{{"amplitude_N", 5.0}, {"cycles_per_rev", 3.37}, {"phase_rad", 2.0}}, {0, 0, 0, 0, 0, 0, 0, 0, 3.375}}},
       {"backlash", {{{"gap_m", 6e-6}}, {0, 0, std::log(2e3)}, 0.06}},  // the flank swings: a start for the closed loop
       {"screw_compliance", {{{"stiffness_N_per_m", 3e7}}, {0, std::log(2e3)}}},
       {"position_friction",
@@ -45,8 +46,8 @@ const std::map<std::string_view, Trial>& trials() {
       {"cable_spring", {{{"stiffness_N_per_m", 500.0}, {"neutral_m", 0.006}}, {0, 0}}},
       {"current_loop_lag", {{{"time_constant_s", 2e-3}}, {0}}},
       {"input_delay", {{{"delay_s", 2e-3}}, {0}}},
-      {"thermal_friction", {{{"viscous_reduction", 0.3}, {"energy_scale_J", 6.0}}, {0, 5}}},
-      {"friction_drift", {{{"relative_change", -0.3}, {"time_constant_s", 1.2}}, {0, 1}}},
+      {"thermal_friction", {{{"viscous_reduction", 0.3}, {"energy_scale_J", 6.0}}, {0, 5, 0, 0, 0, 0}}},
+      {"friction_drift", {{{"relative_change", -0.3}, {"time_constant_s", 1.2}}, {0, 1, 0, 0, 0, 0}}},
       {"torque_gain_error", {{{"relative_error", -0.1}}, {0}, 0.03, true, true}},
       {"torque_offset", {{{"offset_Nm", 0.012}}, {0}, 0.03, true, true}},
       {"gravity", {{{"force_N", -15.0}}, {0}, 0.03, true, true}},
@@ -72,7 +73,8 @@ const std::map<std::string_view, Trial>& trials() {
        {{{"position_m", 0.0194}, {"direction", 1.0}, {"stiffness_N_per_m", 3e5}, {"damping_Ns_per_m", 2000.0}},
         {0, 0, 0.0193, 1}}},
       {"count_loss", {{{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}, {0, 2.1}}},
-      {"screw_growth", {{{"relative_growth", 1e-4}, {"time_constant_s", 1.5}, {"fixed_end_m", -0.1}}, {0, 2, -0.06}}},
+      {"screw_growth",
+       {{{"relative_growth", 1e-4}, {"time_constant_s", 1.5}, {"fixed_end_m", -0.1}}, {0, 2, -0.06, 0, 0, 0, 0}}},
       {"load_dependent_friction", {{{"friction_per_load", 0.3}, {"guide_friction_share", 1.0}}, {0, 1}}},
       {"presliding_memory", {{{"force_N", 80.0}, {"distance_m", 2e-5}}, {0, 3e-5}}},
   };

@@ -18,32 +18,6 @@ NamedEffect named(std::string_view id, std::string name, double value) {
   return effect;
 }
 
-SetupFault mended(std::string id, std::string name, double value) {
-  SetupFault fault;
-  fault.id = std::move(id);
-  fault.parameters.push_back({std::move(name), value, 1e-5});
-  return fault;
-}
-
-TEST(TellAsOneLead, WhatIsLeftOfAMendedLeadsErrorIsNoSecondFinding) {
-  Diagnosis result;
-  result.setup.push_back(mended("wrong_lead", "factor", 2.0));
-  result.effects = {named("lead_error", "relative_error", 3e-6), named("cogging", "amplitude_Nm", 0.01)};
-  tell_as_one_lead(result);
-  ASSERT_EQ(result.effects.size(), 1U);
-  EXPECT_EQ(result.effects.front().hypothesis->id, "cogging");
-  EXPECT_DOUBLE_EQ(result.setup.front().parameters.front().value, 2.0 * (1.0 + 3e-6));
-}
-
-TEST(TellAsOneLead, ALeadErrorWhereNoLeadWasMendedStays) {
-  Diagnosis result;
-  result.setup.push_back(mended("channel_skew", "delay_s", 2e-3));
-  result.effects = {named("lead_error", "relative_error", 3e-4)};
-  tell_as_one_lead(result);
-  EXPECT_EQ(result.effects.size(), 1U);
-  EXPECT_DOUBLE_EQ(result.setup.front().parameters.front().value, 2e-3);
-}
-
 TEST(SentenceOf, WhatTheClosedLoopAloneTellsIsNoShareOfTheInverseModelsRemainder) {
   NamedEffect effect = named("torque_offset", "offset_Nm", 3e-3);
   effect.share = 0.0;

@@ -140,6 +140,24 @@ TEST(SetupChecks, AReadingThatJumpsAndComesBackLosesNothing) {
   EXPECT_TRUE(mend_setup(data).empty());
 }
 
+// Five starts as of a stepped reference: in the middle of each bend the steps beside are shorter, and none is lost.
+TEST(SetupChecks, WhereTheAxisSpeedsUpHardNothingIsLost) {
+  Case data = recorded_with(plant::source_axis());
+  const double count_m = data.axis.axis.lead_m / data.axis.axis.encoder_counts_per_rev;
+  auto& run = data.fit[0];
+  auto& shown = run.channels.at("position_m");
+  run.channels.erase("scale_position_m");
+  const std::vector<double> start{153, 236, 310, 389, 470, 531, 584, 629, 658, 680, 693, 695, 693, 688, 681, 678, 677};
+  double counts = 0.0;
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const std::size_t since = k % 800;
+    const double speed = since % 400 < start.size() ? start[since % 400] : start.back();
+    counts += since < 400 ? speed : -speed;
+    shown[k] = counts * count_m;
+  }
+  for (const auto& fault : mend_setup(data)) EXPECT_NE(fault.id, "count_loss") << fault.sentence;
+}
+
 TEST(SetupChecks, LossesAtAMarkOrOfManySizesAreNoneOfTheirOwn) {
   auto axis = plant::source_axis();
   axis.effects.push_back(tests::effect("count_loss", {{"counts_per_pass", 60.0}, {"angle_rad", 2.0}}));

@@ -48,6 +48,7 @@ void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchRes
     auto seen = confirm(forward, fitter, found.whitening, fit.model, e);
     progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
                          seen.channel.empty() ? "no channel" : seen.channel, seen.error_ratio));
+    if (auto* named = found.of(hypothesis)) named->error_ratio = seen.error_ratio;
     if (seen.error_ratio > hypothesis->least_error_ratio) continue;
     if (missed_once_polished(forward, fitter, found.of(hypothesis), fit, seen.without, progress)) continue;
     fit = std::move(seen.without);

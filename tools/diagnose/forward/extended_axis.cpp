@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plant/effects/registry.h"
+#include "tools/diagnose/hypotheses/shapes.h"
 #include "tools/diagnose/own_phase.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -25,10 +26,27 @@ void join_contact(plant::EffectSetting& gap, const plant::EffectSetting& spring)
   }
 }
 
-void set_phase(plant::AxisParameters& axis, const Active& line, std::complex<double> value) {
-  const auto setting = std::ranges::find(axis.effects, line.hypothesis->id, &plant::EffectSetting::id);
+/// A number of an effect that the runs do not share.
+void set_number(plant::AxisParameters& axis, const Active& active, std::string_view name, double value) {
+  const auto setting = std::ranges::find(axis.effects, active.hypothesis->id, &plant::EffectSetting::id);
   if (setting == axis.effects.end()) return;
-  *plant::value_in(*setting, *plant::find_effect(setting->id), "phase_rad") = std::arg(value);
+  const auto& entry = *plant::find_effect(setting->id);
+  const auto known = std::ranges::find(entry.parameters, name, &plant::EffectParameter::name);
+  *plant::value_in(*setting, entry, name) = std::clamp(value, known->lowest, known->highest);
+}
+
+void set_phases(AxisByRun& all, const Active& line) {
+  constexpr auto name = "phase_rad";
+  set_number(all.common, line, name, std::arg(common_line(line)));
+  for (std::size_t run = 0; run < line_runs; ++run)
+    set_number(all.runs[run], line, name, std::arg(line.hypothesis->line_of(line.q, run)));
+}
+
+void set_states(AxisByRun& all, const Active& active) {
+  const auto name = active.hypothesis->state;
+  set_number(all.common, active, name, mean_state(active));
+  for (std::size_t run = 0; run < line_runs; ++run)
+    set_number(all.runs[run], active, name, active.q[state_of_run(active.hypothesis->first_state, run)]);
 }
 
 }  // namespace
@@ -36,11 +54,11 @@ void set_phase(plant::AxisParameters& axis, const Active& line, std::complex<dou
 AxisByRun with_phases_of(const Candidate& model, plant::AxisParameters axis) {
   AxisByRun all(std::move(axis));
   for (const auto& active : model.effects) {
-    if (active.hypothesis->line_of == nullptr) continue;
+    const Hypothesis& h = *active.hypothesis;
+    if (h.line_of == nullptr && h.state.empty()) continue;
     if (all.runs.empty()) all.runs.assign(line_runs, all.common);
-    set_phase(all.common, active, common_line(active));
-    for (std::size_t run = 0; run < line_runs; ++run)
-      set_phase(all.runs[run], active, active.hypothesis->line_of(active.q, run));
+    if (h.line_of != nullptr) set_phases(all, active);
+    if (!h.state.empty()) set_states(all, active);
   }
   return all;
 }

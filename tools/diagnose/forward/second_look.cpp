@@ -9,6 +9,7 @@
 
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/questions.h"
+#include "tools/diagnose/forward/telling.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -88,16 +89,7 @@ class SecondLook {
 
  private:
   static constexpr int most_rounds = 4;
-  static constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
-  static constexpr double least_nats = 100.0, least_deviations = 3.0;
-  // what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
-  static constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
   static constexpr double glance_share = 0.3;  // of the nats that tell it: what a glance must promise
-  // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
-  static constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
-  static constexpr double least_deviations_by_runs = 4.5;  // likewise of what is no reading: right ones 6.0, wrong ones 3.1
-  // by the runs alone: right ones 9.7 and more, wrong ones 8.1 and less
-  static constexpr double least_deviations_of_readings = 9.0;
 
   /// The closed loop with one effect more.
   struct Answer {
@@ -188,7 +180,7 @@ class SecondLook {
   /// A few steps along the known slopes of the numbers tell whether to ask at all.
   [[nodiscard]] bool worth_asking(const Fit& with, const Ruling& now, double shared) const {
     const Ruling glance = glance_at_one_more(now, with, forward_, fitter_);
-    const double least = with.model.effects.back().hypothesis->told_by_runs_nats.value_or(least_nats);
+    const double least = with.model.effects.back().hypothesis->told_by_runs_nats.value_or(least_nats_by_channel);
     return glance.value - now.value > shared + glance_share * least;
   }
 
@@ -217,16 +209,14 @@ class SecondLook {
                     "nominal, {} {:.2f} times as close, {:.0f} %",
                     in_words(one.model.effects.back(), one.model.axis), nats, deviations, nearer_nominal,
                     seen.channel.empty() ? "no channel" : seen.channel, seen.ratio, 100.0 * seen.share));
-    const bool closer_by_far =
-        seen.ratio >= least_ratio && seen.share >= least_share && nats >= least_nats && deviations >= least_deviations;
-    const bool slight = runs_may_tell(one.model.effects.back());
-    const bool surely_read = h.only_readings && slight && seen.ratio >= least_ratio_of_readings && nats >= sure_nats &&
-                             deviations >= sure_deviations;
-    const bool loud = seen.ratio >= loud_ratio && nats >= loud_nats && deviations >= loud_deviations;
-    const bool told = h.told_by_runs_nats && slight && nats >= *h.told_by_runs_nats &&
-                      deviations >= (h.only_readings ? least_deviations_of_readings : least_deviations_by_runs);
-    answer.by_runs_alone = told && !(closer_by_far || loud || surely_read);
-    answer.enough = told || closer_by_far || loud || surely_read;
+    const Telling telling = telling_of(h, {.nats = nats,
+                                           .deviations = deviations,
+                                           .nearer_nominal = nearer_nominal,
+                                           .ratio = seen.ratio,
+                                           .share = seen.share,
+                                           .slight = runs_may_tell(one.model.effects.back())});
+    answer.by_runs_alone = telling == Telling::by_runs_alone;
+    answer.enough = telling != Telling::nothing;
     return answer;
   }
 

@@ -29,7 +29,7 @@ Hypothesis floor_vibration() {
           .component = "guide",
           .channel = "force_sensor_N",
           .where = Where::frequency,
-          .parameters = line_parameters(2.0, 45.0),
+          .parameters = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 2.0, 45.0}),
           .shapes = frequencies(8.0, 40.0),
           .apply = apply,
           .named = named,

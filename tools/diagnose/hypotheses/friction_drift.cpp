@@ -1,5 +1,7 @@
-// Friction that drifts with time, whatever is done: F_C, F_S and mu times 1 + c (1 - exp(-t / T)).
+// Friction that drifts with time, whatever is done: F_C, F_S and mu times 1 + c + (b - c) exp(-t / T), b what a run begins
+// with: lubrication and wear go on between sessions.
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/diagnose/hypotheses/registry.h"
@@ -8,9 +10,12 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+constexpr std::size_t first_state = 2;
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
-  const Vector factor = (1.0 + q[0] * (1.0 - (-t.array() / q[1]).exp())).matrix();
+  const double before = q[state_of_run(first_state, view.track.run)];
+  const Vector factor = (1.0 + q[0] + (before - q[0]) * (-t.array() / q[1]).exp()).matrix();
   scale(sum.screw_sliding, factor);
   scale(sum.screw_viscous, factor);
 }
@@ -19,10 +24,11 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"relative_change", q[0]}, {"time_constant_s", q[1]}};
 }
 
-/// What a recording shows of it.
+/// What a recording shows of it, or what happened between them.
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  constexpr double a_recording_s = 10.0, least_change = 0.005;
-  return std::abs(q[0]) * (1.0 - std::exp(-a_recording_s / q[1])) > least_change;
+  constexpr double a_recording_s = 10.0, least_change = 0.005, least_step = 0.02;
+  const auto [low, high] = std::ranges::minmax(q.subspan(first_state));
+  return std::abs(q[0]) * (1.0 - std::exp(-a_recording_s / q[1])) > least_change || high - low > least_step;
 }
 
 }  // namespace
@@ -32,15 +38,18 @@ Hypothesis friction_drift() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"relative_change", Kind::amplitude, 1e-2, -0.9, 5.0},
-                         {"time_constant_s", Kind::shape, 1e-2, 0.2, 1e4}},
-          .shapes = {{1.0}, {4.0}, {20.0}},
+          .parameters = with_states(
+              {{"relative_change", Kind::amplitude, 1e-2, -0.9, 5.0}, {"time_constant_s", Kind::shape, 1e-2, 0.2, 1e4}},
+              1e-2, -0.9, 5.0),
+          .shapes = {{1.0, 0.0}, {4.0, 0.0}, {20.0, 0.0}},
           .apply = apply,
           .named = named,
           .admissible = possible,
           .sentence = "friction drifts with time, by {relative_change} of itself within {time_constant_s} s",
 
           .confused_with = {"thermal_friction"},
+          .state = "initial_change",
+          .first_state = first_state,
           .friction = true};
 }
 

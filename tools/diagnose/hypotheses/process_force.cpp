@@ -29,7 +29,7 @@ Hypothesis process_force() {
           .component = "guide",
           .channel = "force_sensor_N",
           .where = Where::frequency,
-          .parameters = line_parameters(35.0, 110.0),
+          .parameters = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 110.0}),
           .shapes = frequencies(40.0, 100.0),
           .apply = apply,
           .named = named,

@@ -1,4 +1,4 @@
-// The screw grows from its fixed bearing as it warms: x + e (1 - exp(-t / T)) (x - x_f).
+// The screw grows from its fixed bearing as it warms: x + (e + (b - e) exp(-t / T)) (x - x_f), b what a run begins with.
 
 #include <cmath>
 
@@ -10,10 +10,13 @@ namespace {
 
 constexpr double farthest_bearing_m = 0.5;  // from the middle of the stroke
 
+constexpr std::size_t first_state = 3;
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
-  const auto warmed = 1.0 - (-t.array() / q[1]).exp();
-  add(sum.slip_m, (q[0] * warmed * (view.track.position_m.array() - q[2])).matrix());
+  const double before = q[state_of_run(first_state, view.track.run)];
+  const Vector grown = (q[0] + (before - q[0]) * (-t.array() / q[1]).exp()).matrix();
+  add(sum.slip_m, (grown.array() * (view.track.position_m.array() - q[2])).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -31,16 +34,24 @@ Hypothesis screw_growth() {
           .component = "ball_screw",
           .channel = "scale_position_m",
           .where = Where::position,
-          .parameters = {{"relative_growth", Kind::amplitude, 1e-7},
-                         {"time_constant_s", Kind::shape, 1e-2, 0.5, 1e4},
-                         {"fixed_end_m", Kind::shape, 1e-4, -farthest_bearing_m, farthest_bearing_m}},
-          .shapes = {{2.0, -0.075}, {5.0, -0.075}, {15.0, -0.075}, {100.0, -0.075}, {5.0, 0.075}, {100.0, 0.075}},
+          .parameters = with_states({{"relative_growth", Kind::amplitude, 1e-7},
+                                     {"time_constant_s", Kind::shape, 1e-2, 0.5, 1e4},
+                                     {"fixed_end_m", Kind::shape, 1e-4, -farthest_bearing_m, farthest_bearing_m}},
+                                    1e-7, -1e-2, 1e-2),
+          .shapes = {{2.0, -0.075, 0.0},
+                     {5.0, -0.075, 0.0},
+                     {15.0, -0.075, 0.0},
+                     {100.0, -0.075, 0.0},
+                     {5.0, 0.075, 0.0},
+                     {100.0, 0.075, 0.0}},
           .apply = apply,
           .named = named,
           .admissible = possible,
           .sentence = "the screw grows as it warms, by {relative_growth} of its length after a long time",
 
           .confused_with = {"lead_error"},
+          .state = "initial_growth",
+          .first_state = first_state,
           .friction = false};
 }
 

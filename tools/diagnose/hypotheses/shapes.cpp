@@ -98,16 +98,10 @@ bool gone_within_a_sample(std::span<const double> q, double sample_s) {
   return q[0] < 0.2 * sample_s;
 }
 
-std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz) {
-  return {{"sine_0_N", Kind::amplitude, 0.1},
-          {"cosine_0_N", Kind::amplitude, 0.1},
-          {"sine_1_N", Kind::amplitude, 0.1},
-          {"cosine_1_N", Kind::amplitude, 0.1},
-          {"sine_2_N", Kind::amplitude, 0.1},
-          {"cosine_2_N", Kind::amplitude, 0.1},
-          {"sine_3_N", Kind::amplitude, 0.1},
-          {"cosine_3_N", Kind::amplitude, 0.1},
-          {"frequency_Hz", Kind::shape, 1e-3, low_Hz, high_Hz}};
+std::vector<WorkingParameter> line_parameters(const WorkingParameter& often) {
+  return {{"sine_0_N", Kind::amplitude, 0.1},   {"cosine_0_N", Kind::amplitude, 0.1}, {"sine_1_N", Kind::amplitude, 0.1},
+          {"cosine_1_N", Kind::amplitude, 0.1}, {"sine_2_N", Kind::amplitude, 0.1},   {"cosine_2_N", Kind::amplitude, 0.1},
+          {"sine_3_N", Kind::amplitude, 0.1},   {"cosine_3_N", Kind::amplitude, 0.1}, often};
 }
 
 void add_line(const Track& track, std::span<const double> q, Vector& force_N) {
@@ -142,6 +136,39 @@ double line_amplitude(std::span<const double> q) {
   for (std::size_t run = 0; run < line_runs; ++run)
     if (has_line(q, run)) sum += std::norm(line_of_run(q, run)), runs += 1.0;
   return std::sqrt(sum / std::max(1.0, runs));
+}
+
+std::vector<WorkingParameter> with_states(std::vector<WorkingParameter> parameters, double step, double lowest,
+                                          double highest) {
+  static constexpr std::array names{"state_0", "state_1", "state_2", "state_3"};
+  static_assert(names.size() == line_runs);
+  for (std::size_t run = 0; run < line_runs; ++run)
+    parameters.push_back({names[run], run == 0 ? Kind::fixed : Kind::amplitude, step, lowest, highest});
+  return parameters;
+}
+
+std::size_t state_of_run(std::size_t first_state, std::size_t run) {
+  return first_state + std::min(run, line_runs - 1);
+}
+
+double mean_state(const Active& active) {
+  double sum = 0.0, runs = 1.0;
+  for (std::size_t run = 0; run < line_runs; ++run) {
+    const double one = active.q[state_of_run(active.hypothesis->first_state, run)];
+    sum += one, runs += run > 0 && one != 0.0;
+  }
+  return sum / runs;
+}
+
+std::pair<double, double> states_from_to(const Active& active) {
+  const auto [low, high] = std::ranges::minmax(std::span(active.q).subspan(active.hypothesis->first_state, line_runs));
+  return {low, high};
+}
+
+bool states_differ(const Active& active) {
+  constexpr double least_share = 0.1;
+  const auto [low, high] = states_from_to(active);
+  return std::max(-low, high) > least_share * std::abs(active.q.front());
 }
 
 Grid torque_limits() {

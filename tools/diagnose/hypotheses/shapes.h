@@ -28,8 +28,8 @@ namespace feedtwin::tools::diagnosis {
 /// Of the same: less is how two models of one axis differ, in where within a sample friction and torque stand.
 [[nodiscard]] bool late_beyond_a_model(std::span<const double> q);
 
-/// A force of one frequency with a phase of its own in each of up to four runs: sine and cosine of each run, frequency.
-[[nodiscard]] std::vector<WorkingParameter> line_parameters(double low_Hz, double high_Hz);
+/// A force that waves with a phase of its own in each of up to four runs: sine and cosine of each run, and how often.
+[[nodiscard]] std::vector<WorkingParameter> line_parameters(const WorkingParameter& often);
 void add_line(const Track& track, std::span<const double> q, Vector& force_N);
 /// Its amplitude and phase in a run, see Hypothesis::line_of.
 [[nodiscard]] std::complex<double> line_of_run(std::span<const double> q, std::size_t run);
@@ -37,6 +37,18 @@ void add_line(const Track& track, std::span<const double> q, Vector& force_N);
 [[nodiscard]] bool has_line(std::span<const double> q, std::size_t run);
 /// Root mean square of the runs' amplitudes.
 [[nodiscard]] double line_amplitude(std::span<const double> q);
+
+/// What each of up to four runs begins with, the first one's fixed at none: see Hypothesis::state.
+[[nodiscard]] std::vector<WorkingParameter> with_states(std::vector<WorkingParameter> parameters, double step, double lowest,
+                                                        double highest);
+/// Where a run's stands among the working parameters.
+[[nodiscard]] std::size_t state_of_run(std::size_t first_state, std::size_t run);
+/// Of the runs that have one, as it is handed on.
+[[nodiscard]] double mean_state(const Active& active);
+/// Least and largest of them.
+[[nodiscard]] std::pair<double, double> states_from_to(const Active& active);
+/// Do the runs begin in states that differ, by more than a share of the change that goes with them?
+[[nodiscard]] bool states_differ(const Active& active);
 
 /// Grids of shape parameters.
 using Grid = std::vector<std::vector<double>>;

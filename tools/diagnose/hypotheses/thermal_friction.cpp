@@ -1,4 +1,5 @@
-// Warm-up: the screw's viscous friction times 1 - r (1 - exp(-E / E_0)), E the work done on it since the start of the run.
+// Warm-up: the screw's viscous friction times 1 - r - (b - r) exp(-E / E_0), E the work done on it since the start of the
+// run, b what it had lost by then: a run may begin warm.
 
 #include <cmath>
 
@@ -9,15 +10,18 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+constexpr std::size_t first_state = 2;
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const auto& screw = view.axis.ball_screw;
   Vector factor(track.size);
+  const double before = q[state_of_run(first_state, track.run)];
   double work_J = 0.0;
   for (Index k = 0; k < track.size; ++k) {
     const double v = track.velocity_m_per_s[k], speed = std::abs(v);
     const auto side = v > 0.0 ? &plant::Directional::pos : &plant::Directional::neg;
-    factor[k] = 1.0 - q[0] * (1.0 - plant::exp_of_minus(work_J / q[1]));
+    factor[k] = 1.0 - q[0] - (before - q[0]) * plant::exp_of_minus(work_J / q[1]);
     const double sliding = screw.coulomb_N.*side + (screw.static_N.*side - screw.coulomb_N.*side) *
                                                        plant::exp_of_minus(speed / screw.stribeck_m_per_s.*side);
     work_J += (sliding + factor[k] * screw.viscous_Ns_per_m.*side * speed) * speed * track.sample_s;
@@ -40,9 +44,10 @@ Hypothesis thermal_friction() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"viscous_reduction", Kind::amplitude, 1e-2, -2.0, 0.95},
-                         {"energy_scale_J", Kind::shape, 1e-2, 0.1, 1e5}},
-          .shapes = {{2.0}, {5.0}, {12.0}, {30.0}, {80.0}, {250.0}},
+          .parameters = with_states(
+              {{"viscous_reduction", Kind::amplitude, 1e-2, -2.0, 0.95}, {"energy_scale_J", Kind::shape, 1e-2, 0.1, 1e5}},
+              1e-2, -2.0, 0.95),
+          .shapes = {{2.0, 0.0}, {5.0, 0.0}, {12.0, 0.0}, {30.0, 0.0}, {80.0, 0.0}, {250.0, 0.0}},
           .apply = apply,
           .named = named,
           .admissible = possible,
@@ -51,6 +56,8 @@ Hypothesis thermal_friction() {
               "work",
 
           .confused_with = {"friction_drift"},
+          .state = "initial_reduction",
+          .first_state = first_state,
           .friction = true};
 }
 

@@ -1,0 +1,39 @@
+// What the closed loop must say of one effect more.
+
+#include "tools/diagnose/forward/telling.h"
+
+#include <gtest/gtest.h>
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+Answered answered(double nats, double deviations, double nearer_nominal, double ratio = 1.05, double share = 0.05) {
+  return {nats, deviations, nearer_nominal, ratio, share, true};
+}
+
+TEST(Telling, AnOffsetThatTakesTheNumbersFarFromNominalIsNone) {
+  const auto& offset = hypothesis("torque_offset");
+  EXPECT_EQ(telling_of(offset, answered(530.0, 6.3, 10.0)), Telling::by_runs_alone);
+  EXPECT_EQ(telling_of(offset, answered(530.0, 6.3, -5.0)), Telling::by_runs_alone) << "numbers that were fitted with it";
+  EXPECT_EQ(telling_of(offset, answered(530.0, 6.3, -197.0)), Telling::nothing);
+  EXPECT_EQ(telling_of(offset, answered(264.0, 4.7, -22.0, 2.43, 0.61)), Telling::nothing) << "though a channel is closer";
+}
+
+TEST(Telling, WhatNumbersTakeUpNeedsMoreThanAChannelThatComesCloser) {
+  EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(184.0, 3.7, -2.0, 3.07, 0.69)), Telling::nothing);
+  EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(184.0, 4.7, -2.0, 3.07, 0.69)), Telling::by_channel);
+  EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answered(184.0, 3.7, -2.0, 3.07, 0.69)), Telling::by_channel);
+}
+
+TEST(Telling, NatsAloneTellOnlyWhatMayBeToldSo) {
+  EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answered(3000.0, 6.3, 0.0)), Telling::nothing);
+  EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(90.0, 6.3, 0.0)), Telling::nothing);
+  Answered large = answered(530.0, 6.3, 0.0);
+  large.slight = false;
+  EXPECT_EQ(telling_of(hypothesis("torque_offset"), large), Telling::nothing);
+}
+
+}  // namespace
+}  // namespace feedtwin

@@ -1,0 +1,107 @@
+// What the model keeps apart and the machine does not is told as one.
+
+#include "tools/diagnose/told_as_one.h"
+
+#include <gtest/gtest.h>
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+NamedEffect named(std::string_view id, std::string name, double value) {
+  NamedEffect effect;
+  effect.hypothesis = &hypothesis(id);
+  effect.parameters.push_back({std::move(name), {value, value, value}});
+  return effect;
+}
+
+SetupFault mended(std::string id, std::string name, double value) {
+  SetupFault fault;
+  fault.id = std::move(id);
+  fault.parameters.push_back({std::move(name), value, 1e-5});
+  return fault;
+}
+
+TEST(TellAsOneLead, WhatIsLeftOfAMendedLeadsErrorIsNoSecondFinding) {
+  Diagnosis result;
+  result.setup.push_back(mended("wrong_lead", "factor", 2.0));
+  result.effects = {named("lead_error", "relative_error", 3e-6), named("cogging", "amplitude_Nm", 0.01)};
+  tell_as_one_lead(result);
+  ASSERT_EQ(result.effects.size(), 1U);
+  EXPECT_EQ(result.effects.front().hypothesis->id, "cogging");
+  EXPECT_DOUBLE_EQ(result.setup.front().parameters.front().value, 2.0 * (1.0 + 3e-6));
+}
+
+TEST(TellAsOneLead, ALeadErrorWhereNoLeadWasMendedStays) {
+  Diagnosis result;
+  result.setup.push_back(mended("channel_skew", "delay_s", 2e-3));
+  result.effects = {named("lead_error", "relative_error", 3e-4)};
+  tell_as_one_lead(result);
+  EXPECT_EQ(result.effects.size(), 1U);
+  EXPECT_DOUBLE_EQ(result.setup.front().parameters.front().value, 2e-3);
+}
+
+NamedEffect wave(std::string_view id, double amplitude_m, double order) {
+  NamedEffect effect = named(id, "amplitude_m", amplitude_m);
+  effect.parameters.push_back({"cycles_per_rev", {order, order, order}});
+  return effect;
+}
+
+std::size_t names_of(NamedEffect one, NamedEffect other) {
+  Diagnosis result;
+  result.effects = {std::move(one), std::move(other)};
+  tell_as_one_wave(result);
+  return result.effects.size();
+}
+
+TEST(TellAsOneWave, TheSecondHarmonicOfALeadThatWaversIsNoEncodersFault) {
+  Diagnosis result;
+  result.effects = {wave("encoder_eccentricity", 0.7e-6, 2.0), named("cogging", "amplitude_Nm", 0.01),
+                    wave("cyclic_lead_error", 2.7e-6, 1.0)};
+  tell_as_one_wave(result);
+  ASSERT_EQ(result.effects.size(), 2U);
+  EXPECT_EQ(result.effects[0].hypothesis->id, "cogging");
+  EXPECT_EQ(result.effects[1].hypothesis->id, "cyclic_lead_error");
+  EXPECT_NE(result.effects[1].sentence.find("7e-07 m come 2 times"), std::string::npos) << result.effects[1].sentence;
+}
+
+TEST(TellAsOneWave, WhatIsNoHarmonicStays) {
+  EXPECT_EQ(names_of(wave("encoder_eccentricity", 2e-6, 2.0), wave("cyclic_lead_error", 2.7e-6, 1.0)), 2U) << "too large";
+  EXPECT_EQ(names_of(wave("encoder_eccentricity", 1e-6, 1.0), wave("cyclic_lead_error", 2.7e-6, 1.0)), 2U);
+  EXPECT_EQ(names_of(wave("encoder_eccentricity", 1e-6, 1.0), wave("cyclic_lead_error", 2.7e-6, 2.0)), 2U);
+  EXPECT_EQ(names_of(named("lead_error", "relative_error", 1e-6), wave("cyclic_lead_error", 2.7e-6, 2.0)), 2U);
+}
+
+TEST(TellAsOneChange, WarmingUpAndDriftingAreOneTheOneThatExplainsMore) {
+  for (const bool by_work : {true, false}) {
+    Diagnosis result;
+    result.effects = {named("friction_drift", "relative_change", -0.03), named("cogging", "amplitude_Nm", 0.01),
+                      named("thermal_friction", "viscous_reduction", 0.2)};
+    result.effects[0].share = by_work ? 0.2 : 0.7;
+    result.effects[2].share = 0.6;
+    tell_as_one_change(result);
+    ASSERT_EQ(result.effects.size(), 2U);
+    const auto& told = result.effects[by_work ? 1 : 0];
+    EXPECT_EQ(told.hypothesis->id, by_work ? "thermal_friction" : "friction_drift");
+    EXPECT_NE(told.sentence.find(by_work ? "friction_drift" : "thermal_friction"), std::string::npos);
+  }
+}
+
+std::size_t names_beside_growth(double lead_error) {
+  NamedEffect growth = named("screw_growth", "relative_growth", 6e-5);
+  growth.parameters.push_back({"time_constant_s", {10.0, 10.0, 10.0}});
+  Diagnosis result;
+  result.effects = {std::move(growth), named("lead_error", "relative_error", lead_error)};
+  tell_as_one_growth(result, 8.0);
+  return result.effects.size();
+}
+
+TEST(TellAsOneGrowth, AScrewThatWasWarmHasNoWrongLeadBeside) {
+  EXPECT_EQ(names_beside_growth(3e-5), 1U);
+  EXPECT_EQ(names_beside_growth(-3e-5), 2U) << "shorter";
+  EXPECT_EQ(names_beside_growth(2e-4), 2U) << "more than it is seen to grow";
+}
+
+}  // namespace
+}  // namespace feedtwin

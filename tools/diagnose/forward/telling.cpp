@@ -1,0 +1,35 @@
+#include "tools/diagnose/forward/telling.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double least_ratio = 1.5, least_share = 0.45;  // of a channel's error; of what is beyond noise
+constexpr double least_deviations = 3.0;
+// what the runs bear out so loudly needs to bring a channel less close: the others' errors hide it
+constexpr double loud_ratio = 1.2, loud_nats = 4000.0, loud_deviations = 7.0;
+// a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
+constexpr double least_ratio_of_readings = 1.05, sure_nats = 1000.0, sure_deviations = 6.0;
+constexpr double least_deviations_by_runs = 4.5;  // likewise of what is no reading: right ones 6.0, wrong ones 3.1 and 3.7
+// by the runs alone: right ones 9.7 and more, wrong ones 8.1 and less
+constexpr double least_deviations_of_readings = 9.0;
+// what numbers take up must not take them far from nominal: then it stands for friction of another kind. Beside a real
+// contact's friction false offsets took them 21 to 197 farther; right ones brought them nearer
+constexpr double most_farther = 20.0;
+
+}  // namespace
+
+Telling telling_of(const Hypothesis& h, const Answered& a) {
+  const bool absorbed = h.told_by_runs_nats.has_value();
+  if (absorbed && a.nearer_nominal < -most_farther) return Telling::nothing;
+  const bool closer_by_far = a.ratio >= least_ratio && a.share >= least_share && a.nats >= least_nats_by_channel &&
+                             a.deviations >= (absorbed ? least_deviations_by_runs : least_deviations);
+  const bool surely_read = h.only_readings && a.slight && a.ratio >= least_ratio_of_readings && a.nats >= sure_nats &&
+                           a.deviations >= sure_deviations;
+  const bool loud = a.ratio >= loud_ratio && a.nats >= loud_nats && a.deviations >= loud_deviations;
+  if (closer_by_far || surely_read || loud) return Telling::by_channel;
+  const bool told = absorbed && a.slight && a.nats >= *h.told_by_runs_nats &&
+                    a.deviations >= (h.only_readings ? least_deviations_of_readings : least_deviations_by_runs);
+  return told ? Telling::by_runs_alone : Telling::nothing;
+}
+
+}  // namespace feedtwin::tools::diagnosis

@@ -1,0 +1,76 @@
+#include "tools/diagnose/told_as_one.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+std::vector<NamedEffect>::iterator place_of(Diagnosis& result, std::string_view id) {
+  return std::ranges::find(result.effects, &hypothesis(id), &NamedEffect::hypothesis);
+}
+
+/// A parameter's value; none where the effect has none of that name.
+double value_of(const NamedEffect& effect, std::string_view name) {
+  const auto found = std::ranges::find(effect.parameters, name, &std::pair<std::string, Estimate>::first);
+  return found == effect.parameters.end() ? 0.0 : found->second.value;
+}
+
+/// Two or three times as often a revolution, less than half as large.
+bool is_harmonic(const NamedEffect& one, const NamedEffect& of) {
+  constexpr double least_share = 0.5, off_order = 1e-3;
+  const double order = value_of(of, "cycles_per_rev"), times = value_of(one, "cycles_per_rev") / std::max(order, 1e-9);
+  const bool multiple = std::abs(times - 2.0) < off_order || std::abs(times - 3.0) < off_order;
+  const double size_m = value_of(one, "amplitude_m"), of_m = value_of(of, "amplitude_m");
+  return multiple && size_m > 0.0 && size_m < least_share * of_m;
+}
+
+}  // namespace
+
+void tell_as_one_lead(Diagnosis& result) {
+  const auto mended = std::ranges::find(result.setup, "wrong_lead", &SetupFault::id);
+  const auto left = place_of(result, "lead_error");
+  if (mended == result.setup.end() || left == result.effects.end()) return;
+  mended->parameters.front().value *= 1.0 + left->parameters.front().second.value;
+  result.effects.erase(left);
+}
+
+void tell_as_one_wave(Diagnosis& result) {
+  for (std::size_t i = 0; i < result.effects.size(); ++i)
+    for (std::size_t k = 0; k < result.effects.size(); ++k) {
+      auto &one = result.effects[k], &of = result.effects[i];
+      if (i == k || !easily_confused(*one.hypothesis, *of.hypothesis) || !is_harmonic(one, of)) continue;
+      of.sentence += fmt::format(" It is no pure sine: {:.3g} m come {:.0f} times a revolution, in the updated axis as {}.",
+                                 value_of(one, "amplitude_m"), value_of(one, "cycles_per_rev"), one.hypothesis->id);
+      result.effects.erase(result.effects.begin() + static_cast<std::ptrdiff_t>(k));
+      return tell_as_one_wave(result);
+    }
+}
+
+void tell_as_one_change(Diagnosis& result) {
+  const auto warm = place_of(result, "thermal_friction"), drift = place_of(result, "friction_drift");
+  if (warm == result.effects.end() || drift == result.effects.end()) return;
+  const bool by_work = warm->share >= drift->share;
+  const auto &told = by_work ? warm : drift, &other = by_work ? drift : warm;
+  told->sentence += fmt::format(" It follows that law roughly: the updated axis has {} beside it.", other->hypothesis->id);
+  result.effects.erase(other);
+}
+
+void tell_as_one_growth(Diagnosis& result, double run_s) {
+  constexpr double most_before = 1.5;  // times what it grows by while it is recorded
+  const auto growth = place_of(result, "screw_growth"), lead = place_of(result, "lead_error");
+  if (growth == result.effects.end() || lead == result.effects.end()) return;
+  const double grown =
+      value_of(*growth, "relative_growth") * (1.0 - std::exp(-run_s / std::max(value_of(*growth, "time_constant_s"), 1e-9)));
+  const double before = value_of(*lead, "relative_error");
+  if (before * grown <= 0.0 || std::abs(before) > most_before * std::abs(grown)) return;
+  growth->sentence += fmt::format(
+      " It was warm when the runs began: {:.2g} of its length had grown before, in the updated "
+      "axis as lead_error.",
+      before);
+  result.effects.erase(lead);
+}
+
+}  // namespace feedtwin::tools::diagnosis
