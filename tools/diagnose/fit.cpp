@@ -203,17 +203,12 @@ Whitening Fitter::colour_of(const Vector& residual) const {
 }
 
 Fit Fitter::fit_with_colour(const Candidate& start, Whitening& whitening, int rounds, int iterations) const {
-  // what a wave of the lead had made of the scale's colour left all else unweighed, and everything seemed missing
-  constexpr int most_more = 3;
-  constexpr double settled = 0.2;  // change of the cost with its colour
+  Fit best;
   Candidate at = start;
-  bool done = false;
-  for (int round = 0; round < rounds || (!done && round < rounds + most_more); ++round) {
-    const Fit best = fit(at, whitening, iterations);
+  for (int round = 0; round < rounds; ++round) {
+    best = fit(at, whitening, iterations);
     at = best.model;
     whitening = colour_of(best.residual);
-    const double cost = whitened(at, best.residual, whitening).squaredNorm();
-    done = std::abs(cost - best.cost) < settled * cost;
   }
   return linearised(at, whitening);
 }
