@@ -10,18 +10,6 @@ namespace {
 
 constexpr double in_question_nats = 1000.0, doubtful_nats = 50.0;
 
-/// What it takes to stay, beside what the effect's own numbers cost. Where the closed loop is indifferent a name stays that
-/// the inverse model asks for and unseen folds bear out, if it keeps its size (friction along the stroke of the EMPS axis);
-/// not one that rests on single events (a stop of a null: 3). A torque constant without which the numbers were 129 squared
-/// tolerances farther from the file was missed by 481 nats.
-/// @param farther from nominal the numbers are without it, squared tolerances
-double nats_to_stay(const Found& named, double farther = 0.0) {
-  constexpr double far = 60.0, enough_then = 100.0;
-  const Hypothesis& h = *named.effect.hypothesis;
-  const double least = farther > far ? std::min(h.least_missed_nats, enough_then) : h.least_missed_nats;
-  return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);
-}
-
 /// Times what it takes: a name that is missed so is not asked again when another has gone or the numbers are better.
 constexpr double surely_missed = 10.0;
 
@@ -88,6 +76,13 @@ class Asked {
 };
 
 }  // namespace
+
+double nats_to_stay(const Found& named, double farther) {
+  constexpr double far = 60.0, enough_then = 100.0;
+  const Hypothesis& h = *named.effect.hypothesis;
+  const double least = farther > far ? std::min(h.least_missed_nats, enough_then) : h.least_missed_nats;
+  return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);
+}
 
 void keep_missed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit, Ruling& settled,
                  const std::function<void(std::string_view)>& progress) {

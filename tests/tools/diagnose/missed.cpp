@@ -1,0 +1,34 @@
+// What a name must be missed by in closed loop.
+
+#include "tools/diagnose/forward/missed.h"
+
+#include <gtest/gtest.h>
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+Found found(std::string_view id, bool by_closed_loop = false) {
+  Found one;
+  one.effect.hypothesis = &hypothesis(id);
+  one.by_closed_loop = by_closed_loop;
+  return one;
+}
+
+TEST(NatsToStay, ATorqueConstantNeedsFewerWhereTheNumbersWouldBeFarOff) {
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error")), 500.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error"), 30.0), 500.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error"), 129.0), 100.0);
+}
+
+TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {
+  for (const double farther : {0.0, 129.0}) {
+    EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), -10.0);
+    EXPECT_DOUBLE_EQ(nats_to_stay(found("hard_stop"), farther), 20.0);
+    EXPECT_DOUBLE_EQ(nats_to_stay(found("payload", true), farther), 100.0);
+  }
+}
+
+}  // namespace
+}  // namespace feedtwin
