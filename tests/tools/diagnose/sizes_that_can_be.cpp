@@ -42,6 +42,17 @@ TEST(SublinearViscous, IsBelowOneAndToldFromOne) {
   EXPECT_FALSE(can_be(1.05)) << "drag";
 }
 
+TEST(ScrewGrowth, IsNoWrongLead) {
+  const auto can_be = [](double second_run, double third_run) {
+    const std::vector<double> q{6e-5, 10.0, -0.09, 0.0, second_run, third_run, 0.0};
+    return possible({&hypothesis("screw_growth"), q}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(0.0, 0.0)) << "each run begins cold";
+  EXPECT_TRUE(can_be(3e-5, 4e-5)) << "each warmer than the one before it";
+  EXPECT_TRUE(can_be(3e-5, 6e-5));
+  EXPECT_FALSE(can_be(5.8e-5, 6.1e-5)) << "as long as it will ever be";
+}
+
 TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {
   const auto can_be = [](double mass_kg) { return possible({&hypothesis("payload"), {mass_kg}}, plant::source_axis()); };
   EXPECT_TRUE(can_be(13.0));

@@ -45,7 +45,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 
 /// Below it is how sensors are read.
 bool finding(std::span<const double> q) {
-  return std::max(q[0], q[1]) > 1.2e-3;
+  return std::max(q[0], q[1]) > 1.1e-3;
 }
 
 }  // namespace

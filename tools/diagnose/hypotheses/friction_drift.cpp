@@ -47,6 +47,8 @@ Hypothesis friction_drift() {
           .admissible = possible,
           .sentence = "friction drifts with time, by {relative_change} of itself within {time_constant_s} s",
 
+          // beside a real contact's friction false ones were missed by 3 and 50 nats, right ones by 709 and more
+          .least_missed_nats = 150.0,
           .confused_with = {"thermal_friction"},
           .state = "initial_change",
           .first_state = first_state,
