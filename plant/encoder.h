@@ -1,6 +1,7 @@
 #pragma once
 // Motor encoder: table travel to quadrature counts, and its index.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -13,9 +14,11 @@ class Encoder {
   Encoder(double lead_m, double counts_per_rev) noexcept
       : counts_per_m_(counts_per_rev / lead_m), counts_per_rev_(static_cast<std::int64_t>(counts_per_rev)) {}
 
-  /// The count that the encoder shows at a table position; the index is at count 0 of every revolution. Wait-free.
+  /// The count that the encoder shows at a table position; the index is at count 0 of every revolution. It stops at the
+  /// farthest count, two of which still have a difference: an axis whose effects feed each other may run away. Wait-free.
   [[nodiscard]] std::int64_t counts(double position_m) const noexcept {
-    return static_cast<std::int64_t>(std::floor(position_m * counts_per_m_ + 0.5));
+    constexpr double farthest = 4e18;
+    return static_cast<std::int64_t>(std::clamp(std::floor(position_m * counts_per_m_ + 0.5), -farthest, farthest));
   }
   [[nodiscard]] double position_m(std::int64_t counts) const noexcept { return static_cast<double>(counts) / counts_per_m_; }
   [[nodiscard]] double resolution_m() const noexcept { return 1.0 / counts_per_m_; }

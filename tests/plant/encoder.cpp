@@ -26,6 +26,13 @@ TEST(Encoder, IndexPassesOnceARevolutionInBothDirections) {
   }
 }
 
+TEST(Encoder, AnAxisThatRanAwayShowsTheFarthestCount) {
+  const Encoder encoder(0.005, 65536.0);
+  EXPECT_EQ(encoder.counts(1e30), 4'000'000'000'000'000'000);
+  EXPECT_EQ(encoder.counts(-1e30), -4'000'000'000'000'000'000);
+  EXPECT_EQ(encoder.counts(1e30) - encoder.counts(-1e30), 8'000'000'000'000'000'000);
+}
+
 TEST(Encoder, CountsAreWithinHalfACountOfThePosition) {
   const Encoder encoder(0.005, 65536);
   std::mt19937 random(2);
