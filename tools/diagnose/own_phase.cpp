@@ -28,8 +28,13 @@ void take_from_runs(const InverseModel& unseen, const Whitening& whitening, Cand
                     std::size_t first, std::size_t count, double step) {
   Active& own = model.effects[effect];
   const auto numbers = std::span(own.q).subspan(first, count);
-  const auto left = [&] { return whitening.applied(unseen, unseen.residual(model.axis, model.effects)); };
   std::ranges::fill(numbers, 0.0);
+  const auto contacts = unseen.contacts(model.axis, model.effects);
+  const bool again = moves_friction(*own.hypothesis, model.effects);  // only then is friction another with other numbers
+  const auto left = [&] {
+    const auto& followed = again ? unseen.contacts(model.axis, model.effects) : contacts;
+    return whitening.applied(unseen, unseen.residual(model.axis, model.effects, followed));
+  };
   const Vector without = left();
   Eigen::MatrixXd columns(without.size(), static_cast<Index>(count));
   for (std::size_t j = 0; j < count; ++j) {

@@ -4,19 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/tools/diagnose/named_effect.h"
 #include "tools/diagnose/sentence.h"
 
 namespace feedtwin {
 namespace {
 
 using namespace tools::diagnosis;
-
-NamedEffect named(std::string_view id, std::string name, double value) {
-  NamedEffect effect;
-  effect.hypothesis = &hypothesis(id);
-  effect.parameters.push_back({std::move(name), {value, value, value}});
-  return effect;
-}
+using tests::named;
 
 TEST(SentenceOf, WhatTheClosedLoopAloneTellsIsNoShareOfTheInverseModelsRemainder) {
   NamedEffect effect = named("torque_offset", "offset_Nm", 3e-3);

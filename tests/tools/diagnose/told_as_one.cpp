@@ -4,17 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/tools/diagnose/named_effect.h"
+
 namespace feedtwin {
 namespace {
 
 using namespace tools::diagnosis;
-
-NamedEffect named(std::string_view id, std::string name, double value) {
-  NamedEffect effect;
-  effect.hypothesis = &hypothesis(id);
-  effect.parameters.push_back({std::move(name), {value, value, value}});
-  return effect;
-}
+using tests::named;
 
 SetupFault mended(std::string id, std::string name, double value) {
   SetupFault fault;
