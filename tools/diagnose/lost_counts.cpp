@@ -23,11 +23,10 @@ struct Jump {
   double stay;         ///< counts that a scale still misses some rows later; 0 without one
 };
 
-/// What the median says where the cubic says about as much; otherwise the cubic's, if that is of the same sign.
+/// What the median says, where the cubic says about as much: in a bend it has 0.6 of it at most.
 double agreed(double by_median, double by_cubic) {
-  constexpr double about = 0.7;
-  const double share = by_median == 0.0 ? 0.0 : by_cubic / by_median;
-  return share >= about ? by_median : share > 0.0 ? by_cubic : 0.0;
+  constexpr double about = 0.65;
+  return by_cubic * by_median >= about * by_median * by_median ? by_median : 0.0;
 }
 
 /// Counts that each sample's step is short of what the steps beside it are, by their median and along a cubic through them:

@@ -140,21 +140,29 @@ TEST(SetupChecks, AReadingThatJumpsAndComesBackLosesNothing) {
   EXPECT_TRUE(mend_setup(data).empty());
 }
 
-// Five starts as of a stepped reference: in the middle of each bend the steps beside are shorter, and none is lost.
+/// Counts a sample of one round: a bend as of a stepped reference, where the steps beside are 8 to 10 shorter, then a steady
+/// way and a gentle turn to the speed before the bend.
+std::vector<double> steps_of_a_bend() {
+  std::vector<double> steps{153, 236, 310, 389, 470, 531, 584, 629, 658, 680, 693, 695, 693, 688, 681, 678, 677};
+  steps.resize(260, 677.0);
+  double slope = 0.0;
+  const auto go_on = [&](double bend) { steps.push_back(steps.back() + (slope += bend)); };
+  while (slope > -54.0) go_on(-1.5);
+  for (int i = 0; i < 18; ++i) go_on(0.0);
+  while (slope < 80.0) go_on(1.5);
+  while (steps.back() + slope < 140.0) go_on(0.0);
+  return steps;
+}
+
 TEST(SetupChecks, WhereTheAxisSpeedsUpHardNothingIsLost) {
   Case data = recorded_with(plant::source_axis());
   const double count_m = data.axis.axis.lead_m / data.axis.axis.encoder_counts_per_rev;
   auto& run = data.fit[0];
   auto& shown = run.channels.at("position_m");
   run.channels.erase("scale_position_m");
-  const std::vector<double> start{153, 236, 310, 389, 470, 531, 584, 629, 658, 680, 693, 695, 693, 688, 681, 678, 677};
+  const auto steps = steps_of_a_bend();
   double counts = 0.0;
-  for (std::size_t k = 0; k < shown.size(); ++k) {
-    const std::size_t since = k % 800;
-    const double speed = since % 400 < start.size() ? start[since % 400] : start.back();
-    counts += since < 400 ? speed : -speed;
-    shown[k] = counts * count_m;
-  }
+  for (std::size_t k = 0; k < shown.size(); ++k) shown[k] = (counts += std::round(steps[k % steps.size()])) * count_m;
   for (const auto& fault : mend_setup(data)) EXPECT_NE(fault.id, "count_loss") << fault.sentence;
 }
 
