@@ -26,6 +26,7 @@ FeedAxis::FeedAxis(const AxisParameters& nominal, const AxisParameters& true_axi
       chain_(chain_of(true_axis, model_)),
       driven_(chain_ ? chain_->driven(model_) : model_),
       resolution_(chain_ ? chain_->at_least(resolution) : resolution),
+      calm_resolution_(chain_ ? chain_->at_least_in_a_calm_tick(resolution) : resolution),
       encoder_(nominal.axis.lead_m, nominal.axis.encoder_counts_per_rev),
       true_encoder_(true_axis.axis.lead_m, true_axis.axis.encoder_counts_per_rev),
       power_meter_(true_axis.power_meter_window_s) {
@@ -124,7 +125,8 @@ const AxisSignals& FeedAxis::step(const AxisCommand& command, double tick_s) noe
   const double on_screw_N = chain.has_table() ? 0.0 : drive.cutting_force_N;
   const double guide_J = chain.guide_J();
   const double stop_J = chain.stop_J();
-  auto taken = integrate_tick<double>(driven_, state_, chain, motor_force_N - on_screw_N, tick_s, resolution_);
+  const Resolution& resolution = chain.calm(state_) ? calm_resolution_ : resolution_;
+  auto taken = integrate_tick<double>(driven_, state_, chain, motor_force_N - on_screw_N, tick_s, resolution);
   taken.guide_J += chain.guide_J() - guide_J;
   taken.stop_J += chain.stop_J() - stop_J;
 

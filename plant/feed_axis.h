@@ -71,7 +71,7 @@ class FeedAxis {
   AxisModel<double> model_;
   std::unique_ptr<EffectChain> chain_;  ///< none where no effect runs in the tick
   AxisModel<double> driven_;            ///< what the integrator moves: the model, less what effects stand for
-  Resolution resolution_;
+  Resolution resolution_, calm_resolution_;
   AxisState<double> state_;
   AxisLosses<double> losses_;
   Encoder encoder_;       ///< as the configuration has it

@@ -93,14 +93,20 @@ AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noex
   return without;
 }
 
-Resolution EffectChain::at_least(Resolution resolution) const noexcept {
+Resolution EffectChain::at_least(Resolution resolution, bool calm) const noexcept {
   constexpr int waving = 3;  // 0.1 m/s and twelve periods a revolution: half a radian a sub-step
   const bool quiet = !coupling_ && screw_loads_.empty() && table_loads_.empty() && advancing_.empty();
-  const int least = coupling_ ? coupling_->substeps(resolution.swinging) : quiet ? 1 : waving;
+  const int least = coupling_ ? coupling_->substeps(resolution.swinging, calm || !coupling_->has_gap()) : quiet ? 1 : waving;
   resolution.sliding = std::max(resolution.sliding, least);
   resolution.settling = std::max(resolution.settling, least);
   resolution.reversing = std::max(resolution.reversing, 2 * least);
   return resolution;
+}
+
+Resolution EffectChain::at_least_in_a_calm_tick(Resolution resolution) const noexcept {
+  Resolution calm = at_least(resolution, true);
+  calm.reversing = at_least(resolution, false).reversing;  // where a load turns round its flank is left
+  return calm;
 }
 
 void EffectChain::reset(double position_m, double velocity_m_per_s) noexcept {

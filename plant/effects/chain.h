@@ -32,8 +32,13 @@ class EffectChain {
   /// What the integrator moves: the model, less the motor's Coulomb friction where an effect is that, and without table,
   /// guide and end stops where the table is a second body.
   [[nodiscard]] AxisModel<double> driven(const AxisModel<double>& model) const noexcept;
-  /// Sub-steps that the effects want at least.
-  [[nodiscard]] Resolution at_least(Resolution resolution) const noexcept;
+  /// Sub-steps that the effects want at least; in a tick in which no flank changes.
+  [[nodiscard]] Resolution at_least(Resolution resolution) const noexcept { return at_least(resolution, false); }
+  [[nodiscard]] Resolution at_least_in_a_calm_tick(Resolution resolution) const noexcept;
+  /// Once a tick.
+  [[nodiscard]] bool calm(const AxisState<double>& state) noexcept FEEDTWIN_REALTIME {
+    return coupling_ && coupling_->flank_bears(state.position_m);
+  }
 
   /// Effects back to the start of a run; the work that they took stays in the account.
   void reset(double position_m, double velocity_m_per_s) noexcept;
@@ -91,6 +96,7 @@ class EffectChain {
     EffectLoad load;  ///< of the last trial
     double work_J = 0.0;
   };
+  [[nodiscard]] Resolution at_least(Resolution resolution, bool calm) const noexcept;
   [[nodiscard]] EffectMotion screw_motion(const AxisState<double>& state, const Sliding<double>& m,
                                           double torque_Nm) const noexcept;
   [[nodiscard]] EffectMotion table_motion(const EffectMotion& screw) const noexcept;

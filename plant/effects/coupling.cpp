@@ -33,7 +33,7 @@ Coupling::Coupling(const CouplingParameters& parameters, const AxisModel<double>
 void Coupling::place(double position_m, double velocity_m_per_s) noexcept {
   position_m_ = position_m;
   velocity_m_per_s_ = velocity_m_per_s;
-  acceleration_m_per_s2_ = bristle_m_ = 0.0;
+  acceleration_m_per_s2_ = bristle_m_ = depth_m_ = 0.0;
 }
 
 void Coupling::set_sub_step(double h_s) noexcept {
@@ -67,9 +67,10 @@ Coupling::Flank Coupling::flank_at(double start_m, double rate_m_per_s) const no
   const double s_m = rate_m_per_s * trial_.h_s, d_m = trial_.screw_x - position_m_, end_m = beyond_gap_m(d_m + s_m);
   if (start_m == 0.0 && end_m == 0.0 && std::abs(s_m) < half_gap_m_) return Flank::none;
   if (start_m * end_m <= 0.0) return Flank::changing;
-  const double spring_N = 0.5 * parameters_.stiffness_N_per_m * (start_m + end_m);
-  const bool presses = (spring_N + trial_.damping_Ns_per_m * rate_m_per_s) / spring_N >= 0.5;
-  return !presses ? Flank::changing : start_m > 0.0 ? Flank::high : Flank::low;
+  const double half_spring_N = 0.25 * parameters_.stiffness_N_per_m * (start_m + end_m);
+  const double damper_N = trial_.damping_Ns_per_m * rate_m_per_s;
+  const bool high = start_m > 0.0, presses = high ? damper_N >= -half_spring_N : damper_N <= -half_spring_N;
+  return !presses ? Flank::changing : high ? Flank::high : Flank::low;
 }
 
 /// The damper works as long as a flank bears: its mean rate is that of the depth, and nothing jumps where a flank is met.

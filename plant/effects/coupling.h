@@ -31,6 +31,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "plant/effects/effect.h"
 #include "plant/integrator.h"
@@ -66,14 +67,23 @@ class Coupling {
   /// Force now, between nut and table.
   [[nodiscard]] double force_N(double screw_position_m, double screw_velocity_m_per_s) const noexcept FEEDTWIN_REALTIME;
 
-  /// That a tick of a millisecond takes for its swing: a flank that is hit asks for all.
-  [[nodiscard]] int substeps(int most) const noexcept {
+  /// That a tick of a millisecond takes for its swing; a flank that may be hit or left asks for all.
+  [[nodiscard]] int substeps(int most, bool flank_bears) const noexcept {
     constexpr double tick_s = 1e-3, largest_swing_rad = 2.6;
     constexpr int least = 3;
     const double wanted = std::ceil(std::sqrt(rate_squared_per_s2_) * tick_s / largest_swing_rad);
-    return half_gap_m_ > 0.0 || wanted > most ? most : std::min(most, std::max(least, static_cast<int>(wanted)));
+    return !flank_bears || wanted > most ? most : std::min(most, std::max(least, static_cast<int>(wanted)));
   }
 
+  /// Once a tick: does one flank bear, pressed in so far that at this rate it will for ticks to come?
+  [[nodiscard]] bool flank_bears(double screw_position_m) noexcept FEEDTWIN_REALTIME {
+    constexpr double ticks = 4.0;
+    const double depth_m = beyond_gap_m(screw_position_m - position_m_);
+    const double change_m = depth_m - std::exchange(depth_m_, depth_m);
+    return !has_gap() || std::abs(depth_m) > ticks * std::abs(change_m);
+  }
+
+  [[nodiscard]] bool has_gap() const noexcept { return half_gap_m_ > 0.0; }
   [[nodiscard]] double position_m() const noexcept { return position_m_; }
   [[nodiscard]] double velocity_m_per_s() const noexcept { return velocity_m_per_s_; }
   [[nodiscard]] double acceleration_m_per_s2() const noexcept { return acceleration_m_per_s2_; }
@@ -137,6 +147,7 @@ class Coupling {
   LugreBristle<double> guide_;
   LugreSide<double> pos_, neg_;
   double position_m_ = 0.0, velocity_m_per_s_ = 0.0, acceleration_m_per_s2_ = 0.0, bristle_m_ = 0.0;
+  double depth_m_ = 0.0;  ///< in a flank, when it was last asked
   double guide_J_ = 0.0, stop_J_ = 0.0, own_J_ = 0.0;
   Trial trial_{};
 };

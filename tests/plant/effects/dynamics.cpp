@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "plant/effects/coupling.h"
 #include "plant/effects/presliding_memory.h"
 #include "plant/feed_axis.h"
 #include "tests/support/smooth_axis.h"
@@ -246,6 +247,18 @@ TEST(Dynamics, Backlash) {
     const auto fine = pair_error(effect, reference, substeps(96), 300);
     EXPECT_LT(fine.rms_m, 0.03 * coarse.stretch_m) << gap_m;
   }
+}
+
+TEST(Dynamics, AFlankThatIsPressedInSteadilyNeedsFewerSubSteps) {
+  Coupling coupling({.gap_m = 1e-5, .stiffness_N_per_m = 6e7, .damping_Ns_per_m = 2e3},
+                    make_axis_model(test::smooth_axis()));
+  coupling.place(0.0, 0.0);
+  EXPECT_FALSE(coupling.flank_bears(0.0)) << "in the gap";
+  EXPECT_FALSE(coupling.flank_bears(5.4e-6)) << "just hit";
+  EXPECT_TRUE(coupling.flank_bears(5.45e-6)) << "0.45 um deep, by 0.05 um more than a tick ago";
+  EXPECT_FALSE(coupling.flank_bears(5.2e-6)) << "it is being left";
+  EXPECT_EQ(coupling.substeps(6, true), 3);
+  EXPECT_EQ(coupling.substeps(6, false), 6);
 }
 
 TEST(Dynamics, AStiffCouplingIsStableAtThreeSubSteps) {
