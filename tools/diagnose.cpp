@@ -11,6 +11,7 @@
 #include "tools/diagnose/diagnosis.h"
 #include "tools/diagnose/diagnosis_json.h"
 #include "tools/diagnose/hil.h"
+#include "tools/freed_memory.h"
 #include "tools/json_option.h"
 #include "tools/recording/case.h"
 #include "tools/verb.h"
@@ -41,6 +42,7 @@ void print(const diagnosis::HilComparison& hil) {
 }
 
 int run(const Options& options) {
+  keep_freed_memory();
   const Case data = read_case(options.folder);
   for (const auto& remark : data.remarks) fmt::print(stderr, "feedtwin: {}\n", remark);
   const auto progress = [](std::string_view what) { fmt::print(stderr, "diagnose: {}\n", what); };
