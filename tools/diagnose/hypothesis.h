@@ -99,6 +99,8 @@ struct Hypothesis {
   double least_error_ratio = 1.015;
   /// And in closed loop, all other numbers free, the runs must be so many nats less likely.
   double least_missed_nats = -1e300;
+  /// So many, where without it the numbers would be far from nominal; none: as many wherever they are.
+  std::optional<double> least_missed_nats_far_off = std::nullopt;
   bool only_readings = false;  ///< changes what the sensors show and nothing else: only their channels bear it out
   /// The one channel of them that these numbers change; nullptr: either sensor.
   std::string_view (*reading)(std::span<const double> q) = nullptr;

@@ -30,6 +30,9 @@ struct Bar {
   std::size_t most_effects = 8;
 };
 
+/// `Found::error_ratio` of a name that explains most of a channel.
+inline constexpr double explains_most_ratio = 5.0;
+
 struct Found {
   Active effect;
   double gain = 0.0;      ///< fall of the cost that it brings, everything else refitted

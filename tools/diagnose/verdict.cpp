@@ -29,9 +29,8 @@ bool only_a_bite(const Structure& after, const Squares& squares) {
 /// Most of what the runs are off by is the name's: a hidden compensation that the numbers had half taken up left 9 times as
 /// much without it, of which the structure that was left with it was a bite.
 bool explains_most(const SearchResult& found) {
-  constexpr double least_ratio = 5.0;
   return std::ranges::any_of(found.found, [](const Found& one) {
-    return one.error_ratio > least_ratio && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
+    return one.error_ratio > explains_most_ratio && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
   });
 }
 

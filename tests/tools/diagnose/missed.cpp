@@ -26,8 +26,20 @@ TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {
   for (const double farther : {0.0, 129.0}) {
     EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), -10.0);
     EXPECT_DOUBLE_EQ(nats_to_stay(found("hard_stop"), farther), 20.0);
+    EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), farther), 6000.0);
     EXPECT_DOUBLE_EQ(nats_to_stay(found("payload", true), farther), 100.0);
   }
+}
+
+TEST(NatsToStay, ACompensationNeedsFewerWhereItExplainsMost) {
+  Found one = found("hidden_friction_compensation");
+  one.error_ratio = 15.9;
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 500.0);
+  one.error_ratio = 4.8;
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 6000.0);
+  Found other = found("cogging");
+  other.error_ratio = 15.9;
+  EXPECT_DOUBLE_EQ(nats_to_stay(other), -10.0);
 }
 
 }  // namespace

@@ -37,10 +37,13 @@ class Asked {
       Ruling rest = without_it(found, fit, settled, e);
       if (settled.value - rest.value < std::max(doubtful_nats, nats_to_stay(*named))) asked_fairly(settled, rest, e);
       named->missed_nats = settled.value - rest.value;
-      progress_(fmt::format("closed loop, all numbers free, without {}: {:+.0f} nats", hypothesis->id, -named->missed_nats));
       const Active& now = settled.model.effects[e];
       const bool cannot_be = !possible(now, settled.model.axis) || (named->by_runs_alone && !runs_may_tell(now));
       const double farther = fitter_.squared_tolerances(rest.model.axis) - fitter_.squared_tolerances(settled.model.axis);
+      progress_(
+          fmt::format("closed loop, all numbers free, without {}: {:+.0f} nats, numbers {:+.0f} squared tolerances farther "
+                      "from nominal",
+                      hypothesis->id, -named->missed_nats, farther));
       const double short_of_nats = cannot_be ? 1e300 : nats_to_stay(*named, farther) - named->missed_nats;
       if (short_of_nats > 0.0 && (!least || short_of_nats > least->short_of_nats))
         least = Lacking{hypothesis, std::move(rest), short_of_nats, cannot_be};
@@ -78,9 +81,10 @@ class Asked {
 }  // namespace
 
 double nats_to_stay(const Found& named, double farther) {
-  constexpr double far = 60.0, enough_then = 100.0;
+  constexpr double far = 60.0, enough_of_what_explains_most = 500.0;
   const Hypothesis& h = *named.effect.hypothesis;
-  const double least = farther > far ? std::min(h.least_missed_nats, enough_then) : h.least_missed_nats;
+  double least = farther > far ? h.least_missed_nats_far_off.value_or(h.least_missed_nats) : h.least_missed_nats;
+  if (named.error_ratio > explains_most_ratio) least = std::min(least, enough_of_what_explains_most);
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);
 }
 

@@ -66,6 +66,8 @@ Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forw
   const Candidate better = polish(forward, fitter, start, settings).model;
   if (auto found = likelihood(forward, extended(better)); found.total() > ruling.likelihood.total())
     ruling.model = better, ruling.likelihood = std::move(found);
+  else
+    ruling.exhausted = learned && most_iterations == further_iterations;
   return judged(std::move(ruling), fitter);
 }
 
@@ -80,6 +82,7 @@ Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
 }
 
 Ruling rule_again(const Ruling& before, const ForwardModel& forward, const Fitter& fitter, SlopesOf slopes) {
+  if (before.exhausted && slopes == SlopesOf::anew) return before;
   return polished(before.fit, before.model, forward, fitter, further_iterations,
                   slopes == SlopesOf::before ? before.seen : SeenSlopes{});
 }
@@ -116,12 +119,11 @@ void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitt
     const Candidate beside = with_numbers_of(ahead.model, behind.model);
     const bool better_beside = likelihood(forward, extended(beside)).total() > behind.likelihood.total();
     if (!better_beside && ahead.value - behind.value > hopeless_nats) return;
-    const auto further_from = [&](const Candidate& start) {
-      return polished(behind.fit, start, forward, fitter, further_iterations, {});
-    };
-    Ruling further = further_from(better_beside ? beside : behind.model);
+    const auto from_the_other = [&] { return polished(behind.fit, beside, forward, fitter, further_iterations, {}); };
+    const auto from_its_own = [&] { return rule_again(behind, forward, fitter, SlopesOf::anew); };
+    Ruling further = better_beside ? from_the_other() : from_its_own();
     if (further.value < behind.value + of_consequence_nats) {
-      Ruling second = further_from(better_beside ? behind.model : beside);
+      Ruling second = better_beside ? from_its_own() : from_the_other();
       if (second.value > further.value) further = std::move(second);
     }
     if (further.value < behind.value + of_consequence_nats) return;

@@ -28,6 +28,8 @@ struct Ruling {
   Likelihood likelihood;
   double value = 0.0;  ///< nats, less what its parameters cost
   SeenSlopes seen;     ///< by the first explanation's polish
+  /// Its model was polished further, with slopes of its own, and the runs became no likelier: once more would be the same.
+  bool exhausted = false;
 };
 
 [[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);

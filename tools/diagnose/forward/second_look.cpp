@@ -81,7 +81,8 @@ class SecondLook {
                            .rivals = rivals,
                            .held_everywhere = false,
                            .by_closed_loop = true,
-                           .by_runs_alone = by_runs_alone});
+                           .by_runs_alone = by_runs_alone,
+                           .error_ratio = best->error_ratio});
     fit = best->ruling.fit;
     settled = std::move(best->ruling);
     return true;
@@ -97,6 +98,7 @@ class SecondLook {
     Ruling ruling;
     bool enough = false;         ///< to be named
     bool by_runs_alone = false;  ///< no channel says so
+    double error_ratio = 1.0;    ///< of the channel that says so most
   };
 
   static bool enough(const Answer& answer) { return answer.enough; }
@@ -216,6 +218,7 @@ class SecondLook {
                                            .share = seen.share,
                                            .slight = runs_may_tell(one.model.effects.back())});
     answer.by_runs_alone = telling == Telling::by_runs_alone;
+    answer.error_ratio = seen.ratio;
     answer.enough = telling != Telling::nothing;
     return answer;
   }

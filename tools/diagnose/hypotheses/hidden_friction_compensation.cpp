@@ -33,7 +33,9 @@ Hypothesis hidden_friction_compensation() {
           .admissible = possible,
           .sentence = "the drive compensates friction on its own: {torque_Nm} N m beyond its command",
           .absorbed = true,
-          .least_missed_nats = 500.0,  // true ones 14956 and more; where noise was named so, 61
+          // true ones 14956 and more; beside friction that is not the textbook's it fits the few mm/s about a reversal,
+          // where nine false ones had 636 to 5600, whatever the numbers did
+          .least_missed_nats = 6000.0,
           .confused_with = {"torque_gain_error", "torque_offset", "direction_dependent_friction"},
           .friction = false};
 }
