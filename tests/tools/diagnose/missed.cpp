@@ -22,6 +22,12 @@ TEST(NatsToStay, ATorqueConstantNeedsFewerWhereTheNumbersWouldBeFarOff) {
   EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error"), 129.0), 100.0);
 }
 
+TEST(NatsToStay, ATorqueConstantNeedsMoreWhereItPutsTheNumbersFartherFromNominal) {
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error"), -17.0), 2000.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), -17.0), 6000.0);  // numbers do not take that up
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("payload"), -17.0), -10.0);
+}
+
 TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {
   for (const double farther : {0.0, 129.0}) {
     EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), -10.0);
