@@ -6,6 +6,7 @@
 
 #include "tools/diagnose/by_direction.h"
 #include "tools/diagnose/command_jump.h"
+#include "tools/diagnose/denied.h"
 #include "tools/diagnose/forward/arbiter.h"
 #include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/confirm.h"
@@ -69,6 +70,7 @@ class Diagnosing {
     polish_numbers();
     tell();
     tell_what_is_unknown();
+    take_back_what_unseen_runs_deny();
     show();
     plan_next();
     result_.summary = summary_of(result_);
@@ -220,15 +222,25 @@ class Diagnosing {
                                             : with_table(forward_, fitter_, told_, learned);
   }
 
+  [[nodiscard]] const auto& unseen_runs() const { return data_.holdout.empty() ? data_.fit : data_.holdout; }
+
+  void take_back_what_unseen_runs_deny() {
+    if (result_.effects.empty() || result_.unknown) return;
+    const InverseModel held_out(make_tracks(unseen_runs(), data_.axis, jump_share_), data_.axis);
+    const auto told = with_phases_of(for_unseen(held_out, found_.whitening, told_), result_.updated);
+    if (!taken_back_if_denied(result_, ForwardModel(unseen_runs(), data_), told, found_)) return;
+    told_ = found_.recalibrated.model;
+    result_.recalibrated = recalibrated(fitter_, found_.recalibrated, robust_covariance(model_, found_.recalibrated));
+  }
+
   /// Figures, pictures and energies on what the fit did not see.
   void show() {
     progress_("figures on what the fit did not see");
-    const auto& unseen = data_.holdout.empty() ? data_.fit : data_.holdout;
     const Candidate nominal{data_.axis, {}};
-    const InverseModel held_out(make_tracks(unseen, data_.axis, jump_share_), data_.axis);
+    const InverseModel held_out(make_tracks(unseen_runs(), data_.axis, jump_share_), data_.axis);
     const Candidate told_unseen = for_unseen(held_out, found_.whitening, told_);
     forward_.learn_meter_noise(with_phases_of(told_, result_.updated));
-    ForwardModel simulated(unseen, data_);
+    ForwardModel simulated(unseen_runs(), data_);
     simulated.take_meter_from(forward_);
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
@@ -251,7 +263,7 @@ class Diagnosing {
     if (open != result_.effects.end()) {
       result_.next = plan_to_separate(seen, *open->hypothesis, open->alternatives, progress_);
       open->sentence += next_move_of(result_.next);
-    } else if (result_.verdict == "cannot-tell") {
+    } else if (result_.verdict == "cannot-tell" && result_.denied_by_unseen == 0.0) {
       std::vector<Candidate> models;
       for (const auto& suspect : result_.suspects) models.push_back(suspect.model);
       result_.next = plan_to_prove(seen, models, progress_);

@@ -56,7 +56,8 @@ struct Diagnosis {
   std::map<std::string, ChannelFigures> holdout_inverse;  ///< by the inverse model, through its low pass
   ChannelFigures force_error;                             ///< of the inverse model, |f - m| / |f| below 40 Hz; has no floor
   Energy energy_before, energy_after;
-  std::vector<Suspect> suspects;  ///< beyond chance, too weak to be named
+  std::vector<Suspect> suspects;  ///< beyond chance, too weak to be named or denied by unseen runs
+  double denied_by_unseen = 0.0;  ///< the suspects had been named, but left unseen runs so many times as far off; 0: not so
   NextExperiment next;
   double detection_limit_N = 0.0;   ///< RMS of the weakest effect that would have been named
   double motor_presliding_m = 0.0;  ///< path over which the motor's friction sets in, where it was found; 0: at once

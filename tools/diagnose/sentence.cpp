@@ -91,6 +91,11 @@ std::string outcome_of(const Diagnosis& diagnosis) {
   if (verdict == "cannot-tell") {
     std::vector<std::string> like;
     for (const auto& suspect : diagnosis.suspects) like.emplace_back(suspect.hypothesis->id);
+    if (diagnosis.denied_by_unseen > 0.0)
+      return fmt::format(
+          "Something is left over, but what would be named for it ({}) leaves runs that were not fitted {:.1f} times as far "
+          "off as the recalibrated numbers alone: it stands for something else, and is not named.",
+          list_of(like), diagnosis.denied_by_unseen);
     return fmt::format(
                "Something is left over that chance does not explain (p {:.1g}) and that is too weak to be named: it would "
                "have "

@@ -1,0 +1,63 @@
+// Names that runs which were not fitted deny.
+
+#include "tools/diagnose/denied.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/diagnose/cogged.h"
+#include "tests/tools/diagnose/named_effect.h"
+#include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/sentence.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+/// What is left of a diagnosis that names a ripple of this many times the runs' own.
+struct Told {
+  tests::Cogged cogged;
+  Diagnosis result;
+  bool taken_back;
+
+  explicit Told(double times) {
+    const double amplitude_Nm = 0.01 * times;
+    SearchResult found;
+    found.recalibrated.model = cogged.nominal;
+    Found one;
+    one.effect.hypothesis = &hypothesis("cogging");
+    one.p_false_alarm = 0.001;
+    found.found.push_back(one);
+    plant::AxisParameters axis = cogged.data.axis;
+    axis.effects.push_back(tests::effect("cogging", {{"amplitude_Nm", amplitude_Nm}, {"cycles_per_rev", 8.0}}));
+    result.verdict = "named";
+    result.effects.push_back(tests::named("cogging", "amplitude_Nm", amplitude_Nm));
+    result.updated = axis;
+    taken_back = taken_back_if_denied(result, cogged.forward, with_phases_of(cogged.nominal, axis), found);
+  }
+};
+
+TEST(Denied, ANameThatBringsUnseenRunsCloserStays) {
+  const Told told(1.0);
+  EXPECT_FALSE(told.taken_back);
+  EXPECT_EQ(told.result.verdict, "named");
+  EXPECT_EQ(told.result.effects.size(), 1U);
+  EXPECT_EQ(told.result.updated.effects.size(), 1U);
+  EXPECT_EQ(told.result.denied_by_unseen, 0.0);
+}
+
+TEST(Denied, ANameThatLeavesThemMuchFartherOffIsTakenBackAndSaid) {
+  const Told told(30.0);
+  EXPECT_TRUE(told.taken_back);
+  EXPECT_EQ(told.result.verdict, "cannot-tell");
+  EXPECT_TRUE(told.result.effects.empty());
+  EXPECT_TRUE(told.result.updated.effects.empty()) << "what runs on must be what the runs bear out";
+  EXPECT_GT(told.result.denied_by_unseen, denied_ratio);
+  ASSERT_EQ(told.result.suspects.size(), 1U);
+  EXPECT_EQ(told.result.suspects.front().hypothesis->id, "cogging");
+  const auto text = summary_of(told.result);
+  EXPECT_NE(text.find("(cogging) leaves runs that were not fitted"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace feedtwin
