@@ -13,7 +13,7 @@ namespace feedtwin::tools::diagnosis {
 inline constexpr double denied_ratio = 2.0;
 
 /// @param unseen,told the runs, and the axis that is told as it is in each of them
-/// @return are the names taken back? Then the result has them as suspects, and its axis and numbers are the recalibrated ones
+/// @return are the names taken back? Then the result has them as suspects, and its axis is the recalibrated one
 [[nodiscard]] bool taken_back_if_denied(Diagnosis& result, const ForwardModel& unseen, const AxisByRun& told,
                                         const SearchResult& found);
 

@@ -27,6 +27,20 @@ TEST(Telling, WhatNumbersTakeUpNeedsMoreThanAChannelThatComesCloser) {
   EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answered(184.0, 3.7, -2.0, 3.07, 0.69)), Telling::by_channel);
 }
 
+TEST(Telling, NumbersThatComeFarNearerToTheFileTellBesideAChannelInDoubt) {
+  const auto& gain = hypothesis("torque_gain_error");
+  const auto answer = [](double nearer, double deviations, double ratio) {
+    Answered large = answered(3396.0, deviations, nearer, ratio, 0.43);
+    large.slight = false;
+    return large;
+  };
+  EXPECT_EQ(telling_of(gain, answer(267.0, 10.1, 1.59)), Telling::by_channel);
+  EXPECT_EQ(telling_of(gain, answer(30.0, 10.1, 1.59)), Telling::nothing);
+  EXPECT_EQ(telling_of(gain, answer(267.0, 0.5, 1.59)), Telling::nothing);
+  EXPECT_EQ(telling_of(gain, answer(267.0, 10.1, 1.1)), Telling::nothing);
+  EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answer(267.0, 10.1, 1.4)), Telling::nothing) << "no number takes it up";
+}
+
 TEST(Telling, NatsAloneTellOnlyWhatMayBeToldSo) {
   EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answered(3000.0, 6.3, 0.0)), Telling::nothing);
   EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(90.0, 6.3, 0.0)), Telling::nothing);
