@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/verdict.h"
 
@@ -22,18 +21,25 @@ std::vector<Suspect> named_of(const Diagnosis& result, const SearchResult& found
   return named;
 }
 
+/// How many times as far off the names leave what was not fitted.
+double farther_off(const std::map<std::string, ChannelFigures>& unseen) {
+  constexpr double nothing = 1e-12;
+  double sum = 0.0;
+  for (const auto& [channel, error] : unseen)
+    sum += std::log(std::max(nothing, error.after) / std::max(nothing, error.recalibrated));
+  return std::exp(sum / static_cast<double>(std::max<std::size_t>(1, unseen.size())));
+}
+
 }  // namespace
 
-bool taken_back_if_denied(Diagnosis& result, const ForwardModel& unseen, const AxisByRun& told, const SearchResult& found) {
+bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
+  const double ratio = farther_off(result.holdout);
   auto named = named_of(result, found);
-  if (named.empty()) return false;
-  const AxisByRun numbers_alone = extended(found.recalibrated.model);
-  const double ratio = std::exp(far_off(unseen, told) - far_off(unseen, numbers_alone));
-  if (ratio < denied_ratio) return false;
+  if (named.empty() || result.unknown || ratio < denied_ratio) return false;
   result.denied_by_unseen = ratio;
   result.effects.clear();
   result.suspects = std::move(named);
-  result.updated = numbers_alone.common;
+  result.updated = extended(found.recalibrated.model).common;
   result.verdict = verdict_of(result);
   return true;
 }

@@ -70,8 +70,8 @@ class Diagnosing {
     polish_numbers();
     tell();
     tell_what_is_unknown();
-    take_back_what_unseen_runs_deny();
     show();
+    if (taken_back_if_denied(result_, found_)) tell_the_numbers_alone();
     plan_next();
     result_.summary = summary_of(result_);
     return std::move(result_);
@@ -149,9 +149,12 @@ class Diagnosing {
     if (fit_.model.effects.size() < before) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
   }
 
+  [[nodiscard]] Eigen::MatrixXd covariance_of(const Fit& fit) const {
+    return std::max(1.0, fit.cost / static_cast<double>(model_.rows())) * robust_covariance(model_, fit);
+  }
+
   void polish_numbers() {
-    const double inflation = std::max(1.0, fit_.cost / static_cast<double>(model_.rows()));
-    covariance_ = inflation * robust_covariance(model_, fit_);
+    covariance_ = covariance_of(fit_);
     by_inverse_model_ = fit_;
     progress_("polishing the numbers by closed-loop simulation");
     if (!unknown_) take_polished(polish(forward_, fitter_, as_settled()));
@@ -222,25 +225,15 @@ class Diagnosing {
                                             : with_table(forward_, fitter_, told_, learned);
   }
 
-  [[nodiscard]] const auto& unseen_runs() const { return data_.holdout.empty() ? data_.fit : data_.holdout; }
-
-  void take_back_what_unseen_runs_deny() {
-    if (result_.effects.empty() || result_.unknown) return;
-    const InverseModel held_out(make_tracks(unseen_runs(), data_.axis, jump_share_), data_.axis);
-    const auto told = with_phases_of(for_unseen(held_out, found_.whitening, told_), result_.updated);
-    if (!taken_back_if_denied(result_, ForwardModel(unseen_runs(), data_), told, found_)) return;
-    told_ = found_.recalibrated.model;
-    result_.recalibrated = recalibrated(fitter_, found_.recalibrated, robust_covariance(model_, found_.recalibrated));
-  }
-
   /// Figures, pictures and energies on what the fit did not see.
   void show() {
     progress_("figures on what the fit did not see");
+    const auto& unseen = data_.holdout.empty() ? data_.fit : data_.holdout;
     const Candidate nominal{data_.axis, {}};
-    const InverseModel held_out(make_tracks(unseen_runs(), data_.axis, jump_share_), data_.axis);
+    const InverseModel held_out(make_tracks(unseen, data_.axis, jump_share_), data_.axis);
     const Candidate told_unseen = for_unseen(held_out, found_.whitening, told_);
     forward_.learn_meter_noise(with_phases_of(told_, result_.updated));
-    ForwardModel simulated(unseen_runs(), data_);
+    ForwardModel simulated(unseen, data_);
     simulated.take_meter_from(forward_);
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
@@ -255,6 +248,13 @@ class Diagnosing {
         pictures(simulated, held_out.tracks(), {data_.axis, extended(recalibrated_only), updated_unseen}, named);
     result_.energy_before = energy(as_given);
     result_.energy_after = energy(as_told);
+  }
+
+  void tell_the_numbers_alone() {
+    told_ = found_.recalibrated.model;
+    result_.recalibrated = recalibrated(fitter_, found_.recalibrated, covariance_of(found_.recalibrated));
+    if (result_.motor_presliding_m > 0.0) result_.motor_presliding_m = motor_presliding_m(told_.axis);
+    show();
   }
 
   void plan_next() {

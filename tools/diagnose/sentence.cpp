@@ -62,6 +62,12 @@ std::string how_it_runs(const std::optional<Mode>& mode) {
                      mode->mass_kg, mode->frequency_Hz, mode->damping_ratio);
 }
 
+std::vector<std::string> ids_of(const std::vector<Suspect>& suspects) {
+  std::vector<std::string> ids;
+  for (const auto& suspect : suspects) ids.emplace_back(suspect.hypothesis->id);
+  return ids;
+}
+
 std::string outcome_of(const Diagnosis& diagnosis) {
   const auto& verdict = diagnosis.verdict;
   if (verdict == "agrees")
@@ -89,18 +95,13 @@ std::string outcome_of(const Diagnosis& diagnosis) {
                                                          : "time since reversal (s)",
         100.0 * diagnosis.unknown->share_unseen, diagnosis.unknown->low, diagnosis.unknown->high);
   if (verdict == "cannot-tell") {
-    std::vector<std::string> like;
-    for (const auto& suspect : diagnosis.suspects) like.emplace_back(suspect.hypothesis->id);
-    if (diagnosis.denied_by_unseen > 0.0)
-      return fmt::format(
-          "Something is left over, but what would be named for it ({}) leaves runs that were not fitted {:.1f} times as far "
-          "off as the recalibrated numbers alone: it stands for something else, and is not named.",
-          list_of(like), diagnosis.denied_by_unseen);
+    if (diagnosis.denied_by_unseen > 0.0) return "Something is left over that cannot be named.";
     return fmt::format(
                "Something is left over that chance does not explain (p {:.1g}) and that is too weak to be named: it would "
                "have "
                "to make {:.2g} N rms. It looks most like {}.",
-               std::max(1e-6, diagnosis.suspects.front().p_false_alarm), diagnosis.detection_limit_N, list_of(like)) +
+               std::max(1e-6, diagnosis.suspects.front().p_false_alarm), diagnosis.detection_limit_N,
+               list_of(ids_of(diagnosis.suspects))) +
            next_move_of(diagnosis.next);
   }
   std::vector<std::string> ids;
@@ -114,6 +115,11 @@ std::string outcome_of(const Diagnosis& diagnosis) {
 
 std::string summary_of(const Diagnosis& diagnosis) {
   std::string text = outcome_of(diagnosis);
+  if (diagnosis.denied_by_unseen > 0.0)
+    text += fmt::format(
+        " What had been found for it ({}) leaves runs that were not fitted {:.1f} times as far off as the recalibrated "
+        "numbers alone: it stands for something else, and is not named.",
+        list_of(ids_of(diagnosis.suspects)), diagnosis.denied_by_unseen);
   if (diagnosis.motor_presliding_m > 0.0)
     text += fmt::format(
         " The motor's friction sets in over about {:.2g} um after each reversal, not at once: so it does in the updated "

@@ -7,6 +7,7 @@
 #include "tests/tools/diagnose/cogged.h"
 #include "tests/tools/diagnose/named_effect.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/holdout.h"
 #include "tools/diagnose/sentence.h"
 
 namespace feedtwin {
@@ -33,7 +34,8 @@ struct Told {
     result.verdict = "named";
     result.effects.push_back(tests::named("cogging", "amplitude_Nm", amplitude_Nm));
     result.updated = axis;
-    taken_back = taken_back_if_denied(result, cogged.forward, with_phases_of(cogged.nominal, axis), found);
+    result.holdout = figures(cogged.forward, cogged.data.axis, extended(cogged.nominal), axis);
+    taken_back = taken_back_if_denied(result, found);
   }
 };
 
@@ -55,8 +57,12 @@ TEST(Denied, ANameThatLeavesThemMuchFartherOffIsTakenBackAndSaid) {
   EXPECT_GT(told.result.denied_by_unseen, denied_ratio);
   ASSERT_EQ(told.result.suspects.size(), 1U);
   EXPECT_EQ(told.result.suspects.front().hypothesis->id, "cogging");
-  const auto text = summary_of(told.result);
-  EXPECT_NE(text.find("(cogging) leaves runs that were not fitted"), std::string::npos) << text;
+  for (const auto* verdict : {"cannot-tell", "named"}) {  // a fault in the set-up may stand beside it
+    Diagnosis said = told.result;
+    said.verdict = verdict;
+    const auto text = summary_of(said);
+    EXPECT_NE(text.find("(cogging) leaves runs that were not fitted"), std::string::npos) << text;
+  }
 }
 
 }  // namespace

@@ -81,12 +81,13 @@ class Asked {
 }  // namespace
 
 double nats_to_stay(const Found& named, double farther) {
-  constexpr double far = 60.0, enough_of_what_explains_most = 500.0;
+  constexpr double enough_of_what_explains_most = 500.0;
   // What numbers take up takes them back when it goes: of 14 true torque constants, five of them with numbers fitted to data
   // that held it, they were 23 to 1173 squared tolerances farther off without; of one that was noise, 17 nearer.
   constexpr double where_it_puts_them_off = 4.0;
   const Hypothesis& h = *named.effect.hypothesis;
-  double least = farther > far ? h.least_missed_nats_far_off.value_or(h.least_missed_nats) : h.least_missed_nats;
+  double least =
+      farther > far_from_nominal ? h.least_missed_nats_far_off.value_or(h.least_missed_nats) : h.least_missed_nats;
   if (h.told_by_runs_nats && farther < 0.0) least *= where_it_puts_them_off;
   if (named.error_ratio > explains_most_ratio) least = std::min(least, enough_of_what_explains_most);
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);

@@ -14,6 +14,9 @@ namespace feedtwin::tools::diagnosis {
 void keep_missed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit, Ruling& settled,
                  const std::function<void(std::string_view)>& progress);
 
+/// Squared tolerances: without a name the numbers are far from the file's.
+inline constexpr double far_from_nominal = 60.0;
+
 /// What it takes to stay, beside what the effect's own numbers cost. Where the closed loop is indifferent a name stays that
 /// the inverse model asks for and unseen folds bear out, if it keeps its size (friction along the stroke of the EMPS axis);
 /// not one that rests on single events (a stop of a null: 3). A torque constant without which the numbers were 129 squared

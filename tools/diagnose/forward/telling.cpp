@@ -17,10 +17,6 @@ constexpr double least_deviations_of_readings = 9.0;
 // and what numbers take up must not take them farther from nominal: then it stands for friction of another kind. Beside a
 // real contact's friction false offsets and gains took them 5 to 197 squared tolerances farther; right ones brought them 11
 // to 317 nearer, also where the file's numbers had been fitted with the effect
-// so far nearer that the file would be far off without it: the channel that is left in doubt then counts for less. A true
-// torque constant of 15 % had 3396 nats, 10.1 deviations, 267 nearer, a sensor 1.59 times as close and 43 % of its error; of
-// 300 made cases with nothing hidden what came 30 nearer and more had 0.5 deviations at most
-constexpr double far_nearer = 60.0;
 
 /// Would it be taken out again, when it is asked whether it is missed?
 bool would_go_again(const Hypothesis& h, const Answered& a) {
@@ -42,8 +38,10 @@ Telling telling_of(const Hypothesis& h, const Answered& a) {
   const bool surely_read = h.only_readings && a.slight && a.ratio >= least_ratio_of_readings && a.nats >= sure_nats &&
                            a.deviations >= sure_deviations;
   const bool loud = a.ratio >= loud_ratio && a.nats >= loud_nats && a.deviations >= loud_deviations;
-  const bool by_the_file = absorbed && a.nearer_nominal >= far_nearer && a.ratio >= loud_ratio && a.nats >= sure_nats &&
-                           a.deviations >= sure_deviations;
+  // A true torque constant of 15 % had 3396 nats, 10.1 deviations, 267 nearer, a sensor 1.59 times as close and 43 % of its
+  // error; of 300 made cases with nothing hidden what came 30 nearer and more had 0.5 deviations at most.
+  const bool by_the_file = absorbed && a.nearer_nominal >= far_from_nominal && a.ratio >= loud_ratio &&
+                           a.nats >= sure_nats && a.deviations >= sure_deviations;
   if (closer_by_far || surely_read || loud || by_the_file) return Telling::by_channel;
   const bool told = absorbed && a.slight && a.nats >= *h.told_by_runs_nats &&
                     a.deviations >= (h.only_readings ? least_deviations_of_readings : least_deviations_by_runs);
