@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
+
+#include "tools/parallel.h"
 
 namespace feedtwin::tools {
 
@@ -18,6 +21,19 @@ MatrixXd inverse_of(const MatrixXd& symmetric) {
 
 VectorXd least_squares(const MatrixXd& columns, const VectorXd& values) {
   return columns.colPivHouseholderQr().solve(values);
+}
+
+MatrixXd gram(const MatrixXd& columns) {
+  constexpr Eigen::Index width = 8;  // of a piece of work, whatever the cores: the same sums in the same order
+  const Eigen::Index n = columns.cols();
+  MatrixXd products(n, n);
+  parallel_for(static_cast<std::size_t>((n + width - 1) / width), [&](std::size_t piece) {
+    const Eigen::Index first = static_cast<Eigen::Index>(piece) * width, own = std::min(width, n - first);
+    products.block(first, first, n - first, own).noalias() =
+        columns.rightCols(n - first).transpose() * columns.middleCols(first, own);
+  });
+  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
+  return products;
 }
 
 MatrixXd orthonormal(const MatrixXd& columns) {

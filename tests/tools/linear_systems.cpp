@@ -26,6 +26,7 @@ TEST(LinearSystems, HoldOverRandomOnes) {
     const VectorXd left = values - tall * least_squares(tall, values);
     EXPECT_LT((tall.transpose() * left).norm(), 1e-10 * values.norm()) << "what is left over is beside all columns";
     EXPECT_GT(left.norm(), 0.1 * values.norm());
+    EXPECT_LT((gram(tall) - symmetric).norm(), 1e-14 * symmetric.norm());
     const MatrixXd q = orthonormal(tall);
     EXPECT_LT((q.transpose() * q - MatrixXd::Identity(n, n)).norm(), 1e-12);
     EXPECT_LT((tall - q * (q.transpose() * tall)).norm(), 1e-12 * tall.norm());

@@ -145,12 +145,9 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
     column = (fit.white - whitened(near, model_.residual(near.axis, near.effects, *own[u]), whitening)) / step;
   });
 
-  const Index unknowns = fit.jacobian.cols();
-  fit.information = Eigen::MatrixXd::Zero(unknowns, unknowns);
-  fit.information.selfadjointView<Eigen::Lower>().rankUpdate(fit.jacobian.transpose());
-  fit.information.triangularView<Eigen::StrictlyUpper>() = fit.information.transpose();
+  fit.information = gram(fit.jacobian);
   Eigen::MatrixXd known = fit.information;
-  known.diagonal() += 1e-12 * known.diagonal() + Vector::Constant(unknowns, 1e-12);
+  known.diagonal() += 1e-12 * known.diagonal() + Vector::Constant(fit.jacobian.cols(), 1e-12);
   fit.covariance = inverse_of(known);
   return fit;
 }

@@ -6,6 +6,7 @@
 
 #include "plant/axis_model.h"
 #include "tools/diagnose/motor_friction.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -179,11 +180,11 @@ double InverseModel::weight(const Equation& equation, const plant::AxisParameter
 
 InverseModel::Prepared InverseModel::prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,
                                               const std::vector<ContactForces>& contacts) const {
-  Prepared model;
-  for (std::size_t run = 0; run < tracks_.size(); ++run) {
-    model.base.push_back(baseline(axis, contacts[run], run));
-    model.extra.push_back(contribution_of(effects, {tracks_[run], axis, model.base.back()}));
-  }
+  Prepared model{std::vector<Baseline>(tracks_.size()), std::vector<Contribution>(tracks_.size())};
+  parallel_for(tracks_.size(), [&](std::size_t run) {
+    model.base[run] = baseline(axis, contacts[run], run);
+    model.extra[run] = contribution_of(effects, {tracks_[run], axis, model.base[run]});
+  });
   return model;
 }
 
@@ -194,13 +195,14 @@ Vector InverseModel::residual(const plant::AxisParameters& axis, const std::vect
 
 Vector InverseModel::residual(const plant::AxisParameters& axis, const Prepared& model, Rows which) const {
   Vector rows(rows_);
-  for (const auto& s : segments_) {
-    if (s.size == 0) continue;
+  parallel_for(segments_.size(), [&](std::size_t i) {
+    const auto& s = segments_[i];
+    if (s.size == 0) return;
     const auto& equation = equations_[s.equation];
     const auto& extra = model.extra[s.run];
     const double by = which == Rows::weighted ? weight(equation, axis, extra) : 1.0;
     store(s, by * raw_residual(equation, s.run, axis, extra, model.base[s.run]), rows);
-  }
+  });
   return rows;
 }
 

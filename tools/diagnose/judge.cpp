@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/linear_systems.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -47,16 +48,16 @@ LeftOut left_out(const InverseModel& model, const Fit& fit, const std::vector<st
   Eigen::MatrixXd jacobian = fit.jacobian;
   if (shapes_stay) freeze_shapes(fit, jacobian);
   const Eigen::MatrixXd all = jacobian.transpose() * jacobian;
-  LeftOut out{{}, Eigen::MatrixXd(n, static_cast<Index>(folds))};
-  for (std::size_t f = 0; f < folds; ++f) {
+  LeftOut out{std::vector<double>(folds), Eigen::MatrixXd(n, static_cast<Index>(folds))};
+  parallel_for(folds, [&](std::size_t f) {
     const Eigen::MatrixXd own = jacobian(rows[f], Eigen::all);
     const Vector left = fit.white(rows[f]);
     Eigen::MatrixXd rest = all - own.transpose() * own;
     for (Index i = 0; i < n; ++i) rest(i, i) += 1e-9 * all(i, i) + 1e-12;
     const Vector step = solved(rest, -(own.transpose() * left));
-    out.costs.push_back((left - own * step).squaredNorm());
+    out.costs[f] = (left - own * step).squaredNorm();
     out.steps.col(static_cast<Index>(f)) = step;
-  }
+  });
   return out;
 }
 

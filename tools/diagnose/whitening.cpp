@@ -51,6 +51,27 @@ Vector less_steady(const InverseModel& model, const Vector& residual) {
   return out;
 }
 
+/// e_k = r_k - sum over j of a_j r_(k-j), of rows that all stay in registers a few at a time.
+Vector innovations_of(const Eigen::Ref<const Vector>& r, const Vector& a) {
+  constexpr Index few = 8;
+  const Index size = r.size(), before = std::min(a.size(), size);
+  Vector e(size);
+  const auto one = [&](Index k) {
+    double value = r[k];
+    for (Index j = 1; j <= std::min(k, a.size()); ++j) value -= a[j - 1] * r[k - j];
+    e[k] = value;
+  };
+  Index k = 0;
+  for (; k < before; ++k) one(k);
+  for (; k + few <= size; k += few) {
+    Eigen::Array<double, few, 1> values = r.segment<few>(k).array();
+    for (Index j = 1; j <= a.size(); ++j) values -= a[j - 1] * r.segment<few>(k - j).array();
+    e.segment<few>(k) = values;
+  }
+  for (; k < size; ++k) one(k);
+  return e;
+}
+
 }  // namespace
 
 Whitening Whitening::estimate(const InverseModel& model, const Vector& given) {
@@ -108,11 +129,9 @@ void Whitening::apply(const InverseModel& model, Eigen::Ref<Eigen::MatrixXd> col
     for (Index c = 0; c < columns.cols(); ++c) {
       auto part = columns.col(c).segment(s.start, s.size);
       if (s.size == 0 || part.cwiseAbs().maxCoeff() == 0.0) continue;
-      for (Index k = s.size - 1; k >= 0; --k) {
-        double value = part[k];
-        for (Index j = 1; j <= a.size() && j <= k; ++j) value -= a[j - 1] * part[k - j];
-        part[k] = value * (model.settled(s.start + k) ? per_sigma : per_sigma * unsettled_[s.equation]);
-      }
+      const Vector white = innovations_of(part, a);
+      for (Index k = 0; k < s.size; ++k)
+        part[k] = white[k] * (model.settled(s.start + k) ? per_sigma : per_sigma * unsettled_[s.equation]);
     }
   }
 }

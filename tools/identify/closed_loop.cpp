@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "plant/axis_model.h"
+#include "plant/effects/registry.h"
 #include "tools/identify/sliding.h"
 
 namespace feedtwin::tools {
@@ -35,12 +37,26 @@ std::vector<double> velocity_of(std::span<const double> position_m, double count
   return all;
 }
 
-/// Eqs. 7 and 11 at a speed, without the idle power.
-double drive_power_W(const plant::MotorParameters& motor, double force_N, double v) {
-  const bool forward = v > 0.0;
+using Terms = ElectricalTerms::Terms;
+
+Terms terms_at(double v) {
+  return v > 0.0 ? Terms{v, 0.0, v * v, 0.0} : Terms{0.0, -v, 0.0, v * v};
+}
+
+Terms mean_terms(const plant::AxisLosses<double>& before, const plant::AxisLosses<double>& after, double tick_s) {
+  return {(after.travel_pos_m - before.travel_pos_m) / tick_s, (after.travel_neg_m - before.travel_neg_m) / tick_s,
+          (after.speed_travel_pos_m2_per_s - before.speed_travel_pos_m2_per_s) / tick_s,
+          (after.speed_travel_neg_m2_per_s - before.speed_travel_neg_m2_per_s) / tick_s};
+}
+
+Terms coefficients_of(const plant::MotorParameters& motor) {
   const auto& linear = motor.electrical_linear_Ws_per_m;
   const auto& quadratic = motor.electrical_quadratic_Ws2_per_m2;
-  return (forward ? linear.pos : linear.neg) * std::abs(v) + (forward ? quadratic.pos : quadratic.neg) * v * v + force_N * v;
+  return {linear.pos, linear.neg, quadratic.pos, quadratic.neg};
+}
+
+double product(const Terms& coefficients, const Terms& terms) {
+  return std::inner_product(coefficients.begin(), coefficients.end(), terms.begin(), 0.0);
 }
 
 /// Where the encoder, with all that is wrong with it, shows the position.
@@ -105,7 +121,8 @@ lanes::RecordView ClosedLoopRun::view() const noexcept {
   return view;
 }
 
-Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m, bool sensors) {
+Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m, bool sensors,
+                               ElectricalTerms* terms) {
   const auto view = run.view();
   const double transmission = axis.model().transmission_rad_per_m;
   place_as_shown(axis, view.position_m[0], view.start_velocity_m_per_s);
@@ -116,6 +133,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
   for (auto* channel : {&out.torque_Nm, &out.position_m, &out.power_W, &out.scale_position_m, &out.instant_power_W})
     channel->resize(view.samples);
   for (auto* channel : {&out.torque_sensor_Nm, &out.force_sensor_N}) channel->resize(sensors ? view.samples : 0);
+  const Terms coefficients = coefficients_of(axis.parameters().motor);
   for (std::size_t i = 0; i < view.samples; ++i) {
     const double shown_m = axis.shown_position_m() - position_offset_m;
     out.position_m[i] = shown_m;
@@ -130,13 +148,42 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
       out.force_sensor_N[i] = forces.force_sensor_N;
     }
     const double start_m = axis.signals().position_m, start_m_per_s = axis.signals().velocity_m_per_s;
+    const plant::AxisLosses<double> before = axis.losses();
     const auto& after = axis.step(command, view.tick_s);
     out.power_W[i] = after.power_W;
     const double force_N = after.torque_Nm * transmission, mean_m_per_s = (after.position_m - start_m) / view.tick_s;
-    out.instant_power_W[i] = after.power_W + drive_power_W(axis.parameters().motor, force_N, start_m_per_s) -
-                             drive_power_W(axis.parameters().motor, force_N, mean_m_per_s);
+    const Terms at_start = terms_at(start_m_per_s), at_mean = terms_at(mean_m_per_s);
+    out.instant_power_W[i] = after.power_W + (product(coefficients, at_start) + force_N * start_m_per_s) -
+                             (product(coefficients, at_mean) + force_N * mean_m_per_s);
+    if (terms == nullptr) continue;
+    Terms& mean = terms->mean.emplace_back(mean_terms(before, axis.losses(), view.tick_s));
+    Terms& instant = terms->at_instant.emplace_back(mean);
+    for (std::size_t k = 0; k < instant.size(); ++k) instant[k] += at_start[k] - at_mean[k];
   }
   return out;
+}
+
+bool differ_electrically_at_most(const plant::AxisParameters& one, const plant::AxisParameters& other) {
+  const auto shapes_power = [](const plant::EffectSetting& e) { return plant::find_effect(e.id)->hooks.power; };
+  if (std::ranges::any_of(one.effects, shapes_power)) return one == other;
+  plant::AxisParameters same = other;
+  same.motor.electrical_idle_W = one.motor.electrical_idle_W;
+  same.motor.electrical_linear_Ws_per_m = one.motor.electrical_linear_Ws_per_m;
+  same.motor.electrical_quadratic_Ws2_per_m2 = one.motor.electrical_quadratic_Ws2_per_m2;
+  return same == one;
+}
+
+Simulated with_electrical(Simulated simulated, const ElectricalTerms& terms, const plant::MotorParameters& from,
+                          const plant::MotorParameters& to) {
+  const double idle_W = to.electrical_idle_W - from.electrical_idle_W;
+  Terms more = coefficients_of(to);
+  const Terms less = coefficients_of(from);
+  for (std::size_t k = 0; k < more.size(); ++k) more[k] -= less[k];
+  for (std::size_t i = 0; i < terms.mean.size(); ++i) {
+    simulated.power_W[i] += idle_W + product(more, terms.mean[i]);
+    simulated.instant_power_W[i] += idle_W + product(more, terms.at_instant[i]);
+  }
+  return simulated;
 }
 
 std::vector<Simulated> simulate_closed_loop(const ClosedLoopRun& run, std::span<const CandidateAxis> candidates,

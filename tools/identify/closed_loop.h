@@ -5,6 +5,7 @@
 // Conventions of a recording's row k, at t = k T: positions, torque and force sensor are of that instant, the sensors with
 // command k acting; command k is held until row k + 1; the power meter is read at the end of that tick.
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -51,10 +52,23 @@ using Simulated = lanes::CandidateResult;
 /// The same axis without its end stops: where they stand is not what a recording of motion is about.
 [[nodiscard]] plant::AxisParameters without_stops(plant::AxisParameters parameters);
 
+/// What the coefficients of Eq. 7 multiply, tick by tick: speed forth and back, its square forth and back.
+struct ElectricalTerms {
+  using Terms = std::array<double, 4>;
+  std::vector<Terms> mean, at_instant;  ///< as power_W and instant_power_W are
+};
+
 /// Any axis, with whatever effects it has, one at a time. The axis is placed at the run's start first.
 /// @param sensors whether torque and force sensor are wanted too: they cost a quarter more; empty otherwise
+/// @param terms takes what other electrical coefficients would need; nullptr: nobody asks
 [[nodiscard]] Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m = 0.0,
-                                             bool sensors = true);
+                                             bool sensors = true, ElectricalTerms* terms = nullptr);
+
+/// Do two axes move alike, and differ in Eq. 7's coefficients at most? Not where an effect shapes the power.
+[[nodiscard]] bool differ_electrically_at_most(const plant::AxisParameters& one, const plant::AxisParameters& other);
+/// The same motion under other electrical coefficients.
+[[nodiscard]] Simulated with_electrical(Simulated simulated, const ElectricalTerms& terms,
+                                        const plant::MotorParameters& from, const plant::MotorParameters& to);
 
 /// Many parameter sets of the paper's model at once (lanes/dispatch.h).
 struct CandidateAxis {

@@ -98,9 +98,7 @@ Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& a
   constexpr std::array few{0.0, 1.0, 30.0, 1e3};
   const std::span<const double> factors =
       problem.kept_steps > 0 ? std::span<const double>(few) : std::span<const double>(many);
-  MatrixXd normal = MatrixXd::Zero(at.point.size(), at.point.size());
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(at.jacobian.transpose());
-  normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
+  const MatrixXd normal = gram(at.jacobian);
   const VectorXd gradient = at.jacobian.transpose() * at.residuals;
   MatrixXd points(at.point.size(), static_cast<Index>(factors.size()));
   for (;;) {

@@ -94,7 +94,10 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
   ResidualStack stack(runs, parameters, simulate, settings);
   LeastSquaresProblem problem = problem_for(parameters, stack, settings);
   LeastSquaresSolution at;
+  // white rows are told far more nats than coloured ones are worth, and all is weighed anew
+  constexpr double first_falls = 10.0;
   for (int round = 0; round < settings.rounds; ++round) {
+    problem.least_fall = settings.least_fall * (round + 1 < settings.rounds ? first_falls : 1.0);
     stack.weigh(problem.start, round > 0 || settings.coloured_from_start, round > 0);
     at = solve_least_squares(problem);
     if (settings.progress) {

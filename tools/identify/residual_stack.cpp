@@ -77,9 +77,10 @@ MatrixXd ResidualStack::operator()(const MatrixXd& points) {
 
 void ResidualStack::weigh(const VectorXd& point, bool coloured, bool bounded) {
   std::array<std::vector<std::vector<double>>, fitted_channels.size()> stretches;
+  std::vector<std::vector<Simulated>> simulated(runs_.size());
+  parallel_for(runs_.size(), [&](std::size_t r) { simulated[r] = simulate_(runs_[r], point); });
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    auto simulated = simulate_(runs_[r], point);
-    auto channels = residuals_of(r, simulated.front());
+    auto channels = residuals_of(r, simulated[r].front());
     for (std::size_t c = 0; c < channels.size() && r == 0; ++c) given_[c] = !channels[c].empty();
     rounding_is_left_[r] = rms(channels[0]) < few_roundings * rounding_Nm(runs_[r]);
     for (std::size_t c = 0; c < channels.size(); ++c) stretches[c].push_back(std::move(channels[c]));
@@ -87,14 +88,14 @@ void ResidualStack::weigh(const VectorXd& point, bool coloured, bool bounded) {
   learn_growth(stretches);
   limits_events_ = coloured && settings_.doubt_rests;
   bounded_ = bounded && settings_.largest_deviations > 0.0;
-  for (std::size_t c = 0; c < stretches.size(); ++c) {
+  parallel_for(stretches.size(), [&](std::size_t c) {
     rest_scatter_[c] = limits_events_ && row_by_row(c) ? rest_scatter(c, stretches[c]) : 0.0;
     for (std::size_t r = 0; r < runs_.size(); ++r) settle(r, c, stretches[c][r]);
     const std::size_t order = coloured ? settings_.whitening_order : 0;
     const auto told = while_told(c, std::move(stretches[c]));
     whitening_[c] =
         bounded_ ? innovations_of(told, order, smallest_sigma(c)).colour : fit_whitening(told, order, smallest_sigma(c));
-  }
+  });
 }
 
 void ResidualStack::weigh_as(const ResidualStack& other) {

@@ -62,6 +62,25 @@ TEST(ForwardModel, SimulatesEqualAxesOnceAndEachAsAlone) {
   for (const std::size_t i : {1U, 4U}) EXPECT_EQ(all[i].torque_Nm, all[0].torque_Nm);
 }
 
+TEST(ForwardModel, AnAxisOfOtherElectricalLossesIsShownAsIfSimulated) {
+  for (const bool instants : {false, true}) {
+    Case data = made_case(0.0);
+    for (auto& run : data.fit) run.meter.instants = instants;
+    const ForwardModel forward(data.fit, data);
+    auto lossy = data.axis, lossless = data.axis;
+    lossy.motor.electrical_quadratic_Ws2_per_m2 = {900.0, 700.0};
+    lossless.motor.electrical_idle_W = 0.0;
+    const auto& run = forward.runs().front();
+    const auto all = forward.simulate(run, {lossy, lossless});
+    for (const auto& [place, axis] : {std::pair{0U, &lossy}, {1U, &lossless}}) {
+      const auto alone = forward.simulate(run, {*axis}).front();
+      ASSERT_EQ(all[place].power_W.size(), alone.power_W.size());
+      for (std::size_t i = 0; i < alone.power_W.size(); ++i) ASSERT_NEAR(all[place].power_W[i], alone.power_W[i], 1e-8);
+    }
+    EXPECT_GT(all[0].power_W[500], all[1].power_W[500]);
+  }
+}
+
 TEST(ForwardModel, LeavesOutOnlySensorsThatAreNotRecorded) {
   const Case bare = made_case(0.0);
   Case whole = bare;

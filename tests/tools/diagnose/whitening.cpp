@@ -40,5 +40,37 @@ TEST(Whitening, WhatGoesSteadilyWithTimeOrPlaceIsNoNoise) {
   EXPECT_NEAR(noise_found_N([](double, double at_m) { return 2000.0 * at_m; }), 1.0, 0.1);
 }
 
+// Rows are whitened some at a time: an impulse answers as if alone, wherever in a run it stands, and no run hears another.
+TEST(Whitening, TheAnswerToAnImpulseIsTheSameInEveryRow) {
+  const tools::Case data = tests::short_case(plant::source_axis(), plant::source_axis());
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> white;
+  Vector coloured(model.rows());
+  double last = 0.0;
+  for (double& value : coloured) value = last = 0.8 * last + white(random);
+  const Whitening whitening = Whitening::estimate(model, coloured);
+  const Segment& first = model.segments().front();
+  const auto answer = [&](Index row) -> Vector {
+    Vector impulse = Vector::Zero(model.rows());
+    impulse[row] = 1.0;
+    return whitening.applied(model, impulse);
+  };
+  const auto weight = [&](Index row) { return answer(row)[row]; };  // settled or not
+  constexpr Index long_enough = 14;
+  const Index middle = first.start + first.size / 2;
+  const Vector expected = answer(middle);
+  for (Index row = first.start + first.size - 2 * long_enough; row < first.start + first.size; ++row) {
+    const Vector found = answer(row);
+    EXPECT_EQ(found.head(row).cwiseAbs().maxCoeff(), 0.0);
+    const Index end = first.start + first.size;
+    EXPECT_EQ(found.tail(model.rows() - end).cwiseAbs().maxCoeff(), 0.0) << "in another run";
+    for (Index k = 0; k < std::min(long_enough, end - row); ++k)
+      EXPECT_NEAR(found[row + k] / weight(row + k), expected[middle + k] / weight(middle + k), 1e-12)
+          << "row " << row << " + " << k;
+  }
+  EXPECT_LT(expected[middle + 1] / weight(middle + 1), -0.5) << "the colour is not taken off";
+}
+
 }  // namespace
 }  // namespace feedtwin

@@ -91,6 +91,58 @@ TEST(ClosedLoop, TheRightAxisGivesTheRecordedCommandBack) {
   }
 }
 
+/// Another drive on the same axis.
+plant::AxisParameters electrically_other(plant::AxisParameters axis, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> factor(0.2, 3.0);
+  auto& motor = axis.motor;
+  for (double* number :
+       {&motor.electrical_idle_W, &motor.electrical_linear_Ws_per_m.pos, &motor.electrical_linear_Ws_per_m.neg,
+        &motor.electrical_quadratic_Ws2_per_m2.pos, &motor.electrical_quadratic_Ws2_per_m2.neg})
+    *number *= factor(random);
+  return axis;
+}
+
+TEST(ClosedLoop, OtherElectricalCoefficientsNeedNoOtherSimulation) {
+  std::mt19937_64 random(31);
+  const auto recording = tests::make_recording(
+      plant::source_axis(), {.settings = {.amplitude_m = 0.01, .speed_m_per_s = 0.05}, .duration_s = 1.0});
+  const ClosedLoopRun run(recording, plant::source_axis(), std::nullopt);
+  for (const bool yields : {false, true}) {
+    auto parameters = plant::source_axis();
+    if (yields) parameters.effects.push_back(tests::effect("screw_compliance", {{"stiffness_N_per_m", 1e8}}));
+    plant::FeedAxis axis(parameters);
+    ElectricalTerms terms;
+    const Simulated made = simulate_closed_loop(run, axis, 0.0, true, &terms);
+    for (int i = 0; i < 10; ++i) {
+      const auto other = electrically_other(parameters, random);
+      ASSERT_TRUE(differ_electrically_at_most(parameters, other));
+      plant::FeedAxis its_own(other);
+      const Simulated expected = simulate_closed_loop(run, its_own);
+      const Simulated found = with_electrical(made, terms, parameters.motor, other.motor);
+      EXPECT_EQ(found.torque_Nm, expected.torque_Nm);
+      EXPECT_LT(rms_of_difference(found.power_W, expected.power_W), 1e-9 * rms(expected.power_W));
+      EXPECT_LT(rms_of_difference(found.instant_power_W, expected.instant_power_W), 1e-9 * rms(expected.instant_power_W));
+      EXPECT_GT(rms_of_difference(made.power_W, expected.power_W), 1e-3 * rms(expected.power_W));
+      EXPECT_GT(rms_of_difference(expected.instant_power_W, expected.power_W), 1e-3 * rms(expected.power_W));
+    }
+  }
+}
+
+TEST(ClosedLoop, WhereAnEffectShapesThePowerOnlyEqualAxesAreAlike) {
+  std::mt19937_64 random(32);
+  const auto plain = plant::source_axis();
+  auto heavier = plain;
+  heavier.guide_mass_kg += 1.0;
+  EXPECT_FALSE(differ_electrically_at_most(plain, heavier));
+  for (const char* id : {"regeneration_clipped", "copper_loss"}) {
+    auto shaped = plain;
+    shaped.effects.push_back(tests::effect(id, {}));
+    EXPECT_TRUE(differ_electrically_at_most(shaped, shaped)) << id;
+    EXPECT_FALSE(differ_electrically_at_most(shaped, electrically_other(shaped, random))) << id;
+    EXPECT_FALSE(differ_electrically_at_most(plain, shaped)) << id;
+  }
+}
+
 // A run may begin at rest under torque, a tick before it, or in the middle of a motion: the simulation begins as the axis
 // did.
 TEST(ClosedLoop, BeginsAsTheAxisDid) {

@@ -90,26 +90,39 @@ ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case&
 }
 
 Simulated ForwardModel::simulated(const ClosedLoopRun& run, const plant::AxisParameters& parameters) const {
+  std::vector<Simulated> made(1);
+  simulate_alike(run, {parameters}, {0}, made);
+  return std::move(made.front());
+}
+
+/// @param alike places of axes that differ electrically at most: the first is simulated, and its motion is all others'
+void ForwardModel::simulate_alike(const ClosedLoopRun& run, const std::vector<plant::AxisParameters>& axes,
+                                  const std::vector<std::size_t>& alike, std::vector<Simulated>& all) const {
   const auto& recording = run.recording();
-  plant::FeedAxis axis(without_stops(parameters));
+  const plant::AxisParameters& moved = axes[alike.front()];
+  plant::FeedAxis axis(without_stops(moved));
   const bool sensors = recording.has(channel::torque_sensor_Nm) || recording.has(channel::force_sensor_N);
-  Simulated made = simulate_closed_loop(run, axis, 0.0, sensors);
-  if (recording.meter.instants) made.power_W.swap(made.instant_power_W);
-  return made;
+  ElectricalTerms terms;
+  const Simulated made = simulate_closed_loop(run, axis, 0.0, sensors, alike.size() > 1 ? &terms : nullptr);
+  for (const std::size_t i : alike) {
+    all[i] = i == alike.front() ? made : with_electrical(made, terms, moved.motor, axes[i].motor);
+    if (recording.meter.instants) all[i].power_W.swap(all[i].instant_power_W);
+  }
 }
 
 std::vector<Simulated> ForwardModel::simulate(const ClosedLoopRun& run,
                                               const std::vector<plant::AxisParameters>& axes) const {
-  std::vector<std::size_t> like(axes.size()), different;  // a number of another run's changes nothing in this one
+  std::vector<std::vector<std::size_t>> groups;  // a number of another run's changes nothing in this one
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const auto own = axes.begin() + static_cast<std::ptrdiff_t>(i);
-    like[i] = static_cast<std::size_t>(std::find(axes.begin(), own, *own) - axes.begin());  // nan is like nothing
-    if (like[i] == i) different.push_back(i);
+    const auto known = std::ranges::find_if(
+        groups, [&](const auto& group) { return differ_electrically_at_most(axes[group.front()], axes[i]); });
+    if (known == groups.end())
+      groups.push_back({i});
+    else
+      known->push_back(i);
   }
   std::vector<Simulated> all(axes.size());
-  parallel_for(different.size(), [&](std::size_t i) { all[different[i]] = simulated(run, axes[different[i]]); });
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (like[i] != i) all[i] = all[like[i]];
+  parallel_for(groups.size(), [&](std::size_t g) { simulate_alike(run, axes, groups[g], all); });
   return all;
 }
 

@@ -20,7 +20,7 @@ class ForwardModel {
   void take_meter_from(const ForwardModel& other) { meter_share_ = other.meter_share_; }
 
   [[nodiscard]] const std::vector<ClosedLoopRun>& runs() const { return runs_; }
-  /// One run of each axis, on all cores.
+  /// One run of each axis, on all cores. Axes that move alike are simulated once.
   [[nodiscard]] std::vector<Simulated> simulate(const ClosedLoopRun& run,
                                                 const std::vector<plant::AxisParameters>& axes) const;
   /// Every run of one axis, on all cores.
@@ -34,6 +34,8 @@ class ForwardModel {
 
  private:
   [[nodiscard]] Simulated simulated(const ClosedLoopRun& run, const plant::AxisParameters& axis) const;
+  void simulate_alike(const ClosedLoopRun& run, const std::vector<plant::AxisParameters>& axes,
+                      const std::vector<std::size_t>& alike, std::vector<Simulated>& all) const;
 
   const Case* data_;
   double meter_share_ = 0.0;

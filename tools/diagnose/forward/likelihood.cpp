@@ -10,6 +10,7 @@
 #include "tools/identify/innovations.h"
 #include "tools/identify/sliding.h"
 #include "tools/median.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 constexpr double stretch_s = 0.25;
 constexpr double least_reading = 0.2;  // of the rms: a meter's error is partly of its reading
 
-/// A channel's residuals of all runs, and the stretch that each is of.
+/// A channel's residuals of all runs, later their log densities, and the stretch that each is of.
 struct Channel {
   std::vector<std::vector<double>> residuals;
   std::vector<std::vector<std::size_t>> stretch;
@@ -29,6 +30,15 @@ struct Channel {
       residuals.emplace_back(row(all, first), row(all, end));
       stretch.emplace_back(row(at, first), row(at, end));
     }
+  }
+
+  /// Of their innovations, in place of the residuals.
+  void take_densities() {
+    if (residuals.empty()) return;
+    const auto innovations = innovations_of(residuals);
+    for (std::size_t r = 0; r < residuals.size(); ++r)
+      std::ranges::transform(innovations.values[r], residuals[r].begin(),
+                             [&](double value) { return innovations.log_density(value); });
   }
 };
 
@@ -72,13 +82,11 @@ Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis) {
       channels[c].stretch.push_back(std::move(at));
     }
   }
-  for (auto& channel : channels) {
-    if (channel.residuals.empty()) continue;
-    const auto innovations = innovations_of(channel.residuals);
+  parallel_for(channels.size(), [&](std::size_t c) { channels[c].take_densities(); });
+  for (const auto& channel : channels)
     for (std::size_t r = 0; r < channel.residuals.size(); ++r)
       for (std::size_t i = 0; i < channel.residuals[r].size(); ++i)
-        found.stretches[channel.stretch[r][i]] += innovations.log_density(innovations.values[r][i]);
-  }
+        found.stretches[channel.stretch[r][i]] += channel.residuals[r][i];
   return found;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/parallel.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
@@ -48,9 +50,11 @@ bool are_forward_differences(const MatrixXd& points) {
 void Slopes::learn(std::size_t run, const MatrixXd& points, const std::vector<Simulated>& simulated) {
   if (!are_forward_differences(points)) return;
   auto& known = by_run_[run];
-  known.clear();
-  for (Index i = 0; i < points.rows(); ++i)
-    known.push_back(slope(simulated.front(), simulated[static_cast<std::size_t>(i) + 1], points(i, i + 1) - points(i, 0)));
+  known.resize(static_cast<std::size_t>(points.rows()));
+  parallel_for(known.size(), [&](std::size_t place) {
+    const auto i = static_cast<Index>(place);
+    known[place] = slope(simulated.front(), simulated[place + 1], points(i, i + 1) - points(i, 0));
+  });
 }
 
 std::vector<Simulated> Slopes::simulated(std::size_t run, const MatrixXd& points, Index shared,
@@ -62,10 +66,10 @@ std::vector<Simulated> Slopes::simulated(std::size_t run, const MatrixXd& points
   for (Index i = shared; i < points.rows(); ++i) asked.push_back(i + 1);
   auto found = simulate(points(Eigen::all, asked));
   std::vector<Simulated> all(static_cast<std::size_t>(points.cols()));
-  for (Index i = 0; i < shared; ++i) {
-    const auto place = static_cast<std::size_t>(i);
+  parallel_for(static_cast<std::size_t>(shared), [&](std::size_t place) {
+    const auto i = static_cast<Index>(place);
     all[place + 1] = sum(found.front(), points(i, i + 1) - points(i, 0), known[place]);
-  }
+  });
   for (std::size_t a = 0; a < asked.size(); ++a) all[static_cast<std::size_t>(asked[a])] = std::move(found[a]);
   return all;
 }
