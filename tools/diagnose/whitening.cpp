@@ -51,27 +51,6 @@ Vector less_steady(const InverseModel& model, const Vector& residual) {
   return out;
 }
 
-/// e_k = r_k - sum over j of a_j r_(k-j), of rows that all stay in registers a few at a time.
-Vector innovations_of(const Eigen::Ref<const Vector>& r, const Vector& a) {
-  constexpr Index few = 8;
-  const Index size = r.size(), before = std::min(a.size(), size);
-  Vector e(size);
-  const auto one = [&](Index k) {
-    double value = r[k];
-    for (Index j = 1; j <= std::min(k, a.size()); ++j) value -= a[j - 1] * r[k - j];
-    e[k] = value;
-  };
-  Index k = 0;
-  for (; k < before; ++k) one(k);
-  for (; k + few <= size; k += few) {
-    Eigen::Array<double, few, 1> values = r.segment<few>(k).array();
-    for (Index j = 1; j <= a.size(); ++j) values -= a[j - 1] * r.segment<few>(k - j).array();
-    e.segment<few>(k) = values;
-  }
-  for (; k < size; ++k) one(k);
-  return e;
-}
-
 }  // namespace
 
 Whitening Whitening::estimate(const InverseModel& model, const Vector& given) {
@@ -106,8 +85,7 @@ Whitening Whitening::estimate(const InverseModel& model, const Vector& given) {
       for (Index j = 0; j < p; ++j) toeplitz(i, j) = correlation[std::abs(i - j)];
     const Vector a = p > 0 ? solved(toeplitz, correlation.tail(p)) : Vector();
     const double innovation = correlation[0] - a.dot(correlation.tail(p));
-    made.coefficients_.push_back(a);
-    made.sigma_.push_back(std::sqrt(std::max(innovation, 1e-6 * correlation[0])));
+    made.colours_.push_back({{a.begin(), a.end()}, std::sqrt(std::max(innovation, 1e-6 * correlation[0]))});
     made.rms_.push_back(std::sqrt(correlation[0]));
     made.unsettled_.push_back(1.0);
   }
@@ -124,14 +102,12 @@ Whitening Whitening::estimate(const InverseModel& model, const Vector& given) {
 
 void Whitening::apply(const InverseModel& model, Eigen::Ref<Eigen::MatrixXd> columns) const {
   for (const auto& s : model.segments()) {
-    const Vector& a = coefficients_[s.equation];
-    const double per_sigma = 1.0 / sigma_[s.equation];
     for (Index c = 0; c < columns.cols(); ++c) {
       auto part = columns.col(c).segment(s.start, s.size);
       if (s.size == 0 || part.cwiseAbs().maxCoeff() == 0.0) continue;
-      const Vector white = innovations_of(part, a);
+      colours_[s.equation].apply({part.data(), static_cast<std::size_t>(s.size)});
       for (Index k = 0; k < s.size; ++k)
-        part[k] = white[k] * (model.settled(s.start + k) ? per_sigma : per_sigma * unsettled_[s.equation]);
+        if (!model.settled(s.start + k)) part[k] *= unsettled_[s.equation];
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/diagnose/inverse_model.h"
+#include "tools/identify/whitening.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -22,8 +23,8 @@ class Whitening {
   [[nodiscard]] double residual_rms(std::size_t equation) const { return rms_[equation]; }
 
  private:
-  std::vector<Vector> coefficients_;  ///< r[k] = sum a_j r[k-j] + e[k]
-  std::vector<double> sigma_, rms_;
+  std::vector<tools::Whitening> colours_;
+  std::vector<double> rms_;
   std::vector<double> unsettled_;  ///< weight of the rows about reversals and rests, where any friction law simplifies
 };
 
