@@ -34,7 +34,7 @@ class Search {
     take(nominal, rounds);
     try_wider_stribeck();
     result.recalibrated = fit_;
-    try_what_strikes();
+    if (!try_what_strikes(nominal)) try_what_strikes(result.recalibrated.model);
     for (std::size_t step = 0; step < 3 * bar_.most_effects; ++step) {
       progress_(fmt::format("asking {} hypotheses about the residual", hypotheses().size()));
       last_ = screen(fitter_, fit_, whitening_);
@@ -92,24 +92,24 @@ class Search {
   }
 
   /// What strikes once, harder than everything else pushes, bends all numbers until it no longer shows as itself: it is
-  /// asked for beside the nominal ones too.
-  void try_what_strikes() {
+  /// asked for beside the nominal ones too, and without chance's leave: signs drawn at random leave one event what it is.
+  bool try_what_strikes(const Candidate& start) {
     constexpr double asked_at = 0.2, most_left = 0.5;  // of the cost: its place is not known well, before it is fitted
-    const Candidate start{fitter_.nominal(), {}};
     const Whitening colour = fitter_.colour_of(fitter_.model().residual(start.axis, {}));
-    const Fit nominal = fitter_.linearised(start, colour);
-    const auto scores = scores_of({&hypothesis("hard_stop")}, fitter_, nominal, colour);
-    if (scores.empty() || scores.front().gain < asked_at * nominal.cost) return;
-    const Fit struck = fit_with(fitter_, nominal.model, scores.front(), 0, whitening_, refit_iterations);
+    const Fit before = fitter_.linearised(start, colour);
+    const auto scores = scores_of({&hypothesis("hard_stop")}, fitter_, before, colour);
+    if (scores.empty() || scores.front().gain < asked_at * before.cost) return false;
+    const Fit struck = fit_with(fitter_, before.model, scores.front(), 0, whitening_, refit_iterations);
     const Active& effect = struck.model.effects.front();
     progress_(fmt::format("  {}: {:.2g} times the cost of the numbers alone", in_words(effect, struck.model.axis),
                           struck.cost / fit_.cost));
-    if (!possible(effect, struck.model.axis) || struck.cost > most_left * fit_.cost) return;
+    if (!possible(effect, struck.model.axis) || struck.cost > most_left * fit_.cost) return false;
     progress_("adding " + in_words(effect, struck.model.axis));
     const auto verdict = judged(fitter_, struck, fit_, *effect.hypothesis, bar_);
     chances_.push_back(std::min(1.0, std::exp(-0.5 * verdict.surprise) * static_cast<double>(hypotheses().size())));
     earlier_.push_back(scores);
     take(struck.model, rounds);
+    return true;
   }
 
   /// The best of the hypotheses that pass the bar, refitted jointly.

@@ -114,6 +114,29 @@ TEST(OnUnseen, AnAmplitudeOfOneMomentDoesNotHold) {
   }
 }
 
+// A stop that is struck once: no other second foretells its numbers, which is no reason to doubt what leaves hardly
+// anything.
+TEST(OnUnseen, OneEventHoldsWhereItIsNearlyAllThatWasLeft) {
+  const auto axis = plant::source_axis();
+  const InverseModel model(make_tracks({tests::make_recording(axis, {.motion = "sine", .duration_s = 8.0})}, axis), axis);
+  constexpr Index moment = 20;
+  Fit with, without;
+  with.jacobian = Eigen::MatrixXd::Zero(model.rows(), 2);
+  for (const Index column : {0, 1})
+    with.jacobian.col(column).segment(column * moment, moment).setConstant(1.0 + static_cast<double>(column));
+  without.jacobian = Eigen::MatrixXd::Zero(model.rows(), 0);
+  without.white = Vector::Zero(model.rows());
+  without.white.head(2 * moment).setConstant(50.0);
+  Verdict verdict;
+  for (const double left : {0.1, 0.3}) {
+    without.cost = without.white.squaredNorm(), with.cost = left * without.cost;
+    verdict.gain = without.cost - with.cost;
+    with.white = std::sqrt(left) * without.white;
+    EXPECT_EQ(on_unseen(model, with, without, hypothesis("hard_stop"), verdict, Bar{}).holds, left < 0.2);
+    EXPECT_FALSE(on_unseen(model, with, without, hypothesis("backlash"), verdict, Bar{}).holds);
+  }
+}
+
 TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
   const Whitening whitening = Whitening::estimate(model, model.residual(axis, {}));
   Candidate start{axis, {}};
