@@ -9,8 +9,6 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double in_question_nats = 1000.0, doubtful_nats = 50.0;
-/// Short of what it takes by so much: polishing either further, which brings hundreds at most, makes no difference.
-constexpr double hopeless_nats = 1000.0;
 
 /// Times what it takes: a name that is missed so is not asked again when another has gone or the numbers are better.
 constexpr double surely_missed = 10.0;
@@ -37,8 +35,7 @@ class Asked {
       if (named == nullptr || !worth_naming(fit.model.effects[e])) continue;
       if (named->missed_nats > surely_missed * std::max(100.0, nats_to_stay(*named))) continue;
       Ruling rest = without_it(found, fit, settled, e);
-      const double short_by = std::max(doubtful_nats, nats_to_stay(*named)) - (settled.value - rest.value);
-      if (short_by > 0.0 && short_by < hopeless_nats) asked_fairly(settled, rest, e);
+      if (settled.value - rest.value < std::max(doubtful_nats, nats_to_stay(*named))) asked_fairly(settled, rest, e);
       named->missed_nats = settled.value - rest.value;
       const Active& now = settled.model.effects[e];
       const bool cannot_be = !possible(now, settled.model.axis) || (named->by_runs_alone && !runs_may_tell(now));
