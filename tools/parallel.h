@@ -12,6 +12,12 @@ namespace feedtwin::tools {
 namespace detail {
 /// Is this thread at a piece of such work already? Then all cores are busy, and what it asks for it does by itself.
 inline thread_local bool at_a_piece = false;
+struct AtAPiece {
+  AtAPiece() { at_a_piece = true; }
+  ~AtAPiece() { at_a_piece = false; }  // whatever the work throws
+  AtAPiece(const AtAPiece&) = delete;
+  AtAPiece& operator=(const AtAPiece&) = delete;
+};
 }  // namespace detail
 
 template <class Work>
@@ -24,9 +30,8 @@ void parallel_for(std::size_t count, const Work& work) {
   }
   std::atomic<std::size_t> next{0};
   const auto worker = [&] {
-    detail::at_a_piece = true;
+    const detail::AtAPiece here;
     for (std::size_t i = next++; i < count; i = next++) work(i);
-    detail::at_a_piece = false;
   };
   std::vector<std::jthread> pool;
   for (std::size_t t = 1; t < threads; ++t) pool.emplace_back(worker);

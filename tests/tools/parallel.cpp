@@ -3,11 +3,27 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <semaphore>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
 namespace feedtwin::tools {
 namespace {
+
+/// Each waits for the other to begin; by one thread, one after the other, neither would ever see it.
+bool two_pieces_go_side_by_side() {
+  std::array<std::binary_semaphore, 2> begun{std::binary_semaphore{0}, std::binary_semaphore{0}};
+  std::atomic<int> met{0};
+  parallel_for(2, [&](std::size_t i) {
+    begun[i].release();
+    met += begun[1 - i].try_acquire_for(std::chrono::seconds(20));
+  });
+  return met == 2;
+}
 
 TEST(ParallelFor, DoesEveryPieceOnce) {
   for (const std::size_t count : {0U, 1U, 2U, 7U, 1000U}) {
@@ -28,12 +44,23 @@ TEST(ParallelFor, APieceDoesItsOwnPiecesByItself) {
     parallel_for(inner, [&](std::size_t j) { by[i][j] = std::this_thread::get_id(); });
   });
   for (std::size_t i = 0; i < outer; ++i) EXPECT_EQ(std::ranges::count(by[i], own[i]), std::ptrdiff_t{inner});
-  std::vector<std::thread::id> after(2);
-  parallel_for(after.size(), [&](std::size_t i) {
-    after[i] = std::this_thread::get_id();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  });
-  EXPECT_NE(after[0], after[1]);
+  EXPECT_TRUE(two_pieces_go_side_by_side());
+}
+
+TEST(ParallelFor, WorkThatThrowsLeavesAllCoresToTheNext) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one core";
+  const auto caller = std::this_thread::get_id();
+  std::atomic<bool> thrown = false;
+  EXPECT_THROW(parallel_for(10000,
+                            [&](std::size_t) {
+                              if (std::this_thread::get_id() != caller)
+                                return thrown.wait(false);  // the caller has its turn
+                              thrown = true;
+                              thrown.notify_all();
+                              throw std::runtime_error("a piece");
+                            }),
+               std::runtime_error);
+  EXPECT_TRUE(two_pieces_go_side_by_side());
 }
 
 }  // namespace

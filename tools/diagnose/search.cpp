@@ -29,12 +29,12 @@ class Search {
   SearchResult run() {
     SearchResult result;
     const Candidate nominal{fitter_.nominal(), {}};
-    whitening_ = fitter_.colour_of(fitter_.model().residual(nominal.axis, {}));
+    const Whitening of_nominal = whitening_ = fitter_.colour_of(fitter_.model().residual(nominal.axis, {}));
     progress_("recalibrating the nominal numbers");
     take(nominal, rounds);
     try_wider_stribeck();
     result.recalibrated = fit_;
-    if (!try_what_strikes(nominal)) try_what_strikes(result.recalibrated.model);
+    if (!try_what_strikes(fitter_.linearised(nominal, of_nominal), of_nominal)) try_what_strikes(fit_, whitening_);
     for (std::size_t step = 0; step < 3 * bar_.most_effects; ++step) {
       progress_(fmt::format("asking {} hypotheses about the residual", hypotheses().size()));
       last_ = screen(fitter_, fit_, whitening_);
@@ -93,10 +93,8 @@ class Search {
 
   /// What strikes once, harder than everything else pushes, bends all numbers until it no longer shows as itself: it is
   /// asked for beside the nominal ones too, and without chance's leave: signs drawn at random leave one event what it is.
-  bool try_what_strikes(const Candidate& start) {
+  bool try_what_strikes(const Fit& before, const Whitening& colour) {
     constexpr double asked_at = 0.2, most_left = 0.5;  // of the cost: its place is not known well, before it is fitted
-    const Whitening colour = fitter_.colour_of(fitter_.model().residual(start.axis, {}));
-    const Fit before = fitter_.linearised(start, colour);
     const auto scores = scores_of({&hypothesis("hard_stop")}, fitter_, before, colour);
     if (scores.empty() || scores.front().gain < asked_at * before.cost) return false;
     const Fit struck = fit_with(fitter_, before.model, scores.front(), 0, whitening_, refit_iterations);

@@ -148,7 +148,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
       out.force_sensor_N[i] = forces.force_sensor_N;
     }
     const double start_m = axis.signals().position_m, start_m_per_s = axis.signals().velocity_m_per_s;
-    const plant::AxisLosses<double> before = axis.losses();
+    const auto before = terms != nullptr ? axis.losses() : plant::AxisLosses<double>{};
     const auto& after = axis.step(command, view.tick_s);
     out.power_W[i] = after.power_W;
     const double force_N = after.torque_Nm * transmission, mean_m_per_s = (after.position_m - start_m) / view.tick_s;
@@ -163,14 +163,12 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
   return out;
 }
 
-bool differ_electrically_at_most(const plant::AxisParameters& one, const plant::AxisParameters& other) {
+plant::AxisParameters without_electrical(plant::AxisParameters parameters) {
   const auto shapes_power = [](const plant::EffectSetting& e) { return plant::find_effect(e.id)->hooks.power; };
-  if (std::ranges::any_of(one.effects, shapes_power)) return one == other;
-  plant::AxisParameters same = other;
-  same.motor.electrical_idle_W = one.motor.electrical_idle_W;
-  same.motor.electrical_linear_Ws_per_m = one.motor.electrical_linear_Ws_per_m;
-  same.motor.electrical_quadratic_Ws2_per_m2 = one.motor.electrical_quadratic_Ws2_per_m2;
-  return same == one;
+  if (std::ranges::any_of(parameters.effects, shapes_power)) return parameters;
+  parameters.motor.electrical_idle_W = 0.0;
+  parameters.motor.electrical_linear_Ws_per_m = parameters.motor.electrical_quadratic_Ws2_per_m2 = {};
+  return parameters;
 }
 
 Simulated with_electrical(Simulated simulated, const ElectricalTerms& terms, const plant::MotorParameters& from,

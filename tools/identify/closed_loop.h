@@ -64,8 +64,9 @@ struct ElectricalTerms {
 [[nodiscard]] Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, double position_offset_m = 0.0,
                                              bool sensors = true, ElectricalTerms* terms = nullptr);
 
-/// Do two axes move alike, and differ in Eq. 7's coefficients at most? Not where an effect shapes the power.
-[[nodiscard]] bool differ_electrically_at_most(const plant::AxisParameters& one, const plant::AxisParameters& other);
+/// The same axis without Eq. 7's losses: axes that are alike so differ in the coefficients at most. Where an effect shapes
+/// the power it is not linear in them, and they stay.
+[[nodiscard]] plant::AxisParameters without_electrical(plant::AxisParameters parameters);
 /// The same motion under other electrical coefficients.
 [[nodiscard]] Simulated with_electrical(Simulated simulated, const ElectricalTerms& terms,
                                         const plant::MotorParameters& from, const plant::MotorParameters& to);

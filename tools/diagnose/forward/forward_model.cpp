@@ -103,23 +103,27 @@ void ForwardModel::simulate_alike(const ClosedLoopRun& run, const std::vector<pl
   plant::FeedAxis axis(without_stops(moved));
   const bool sensors = recording.has(channel::torque_sensor_Nm) || recording.has(channel::force_sensor_N);
   ElectricalTerms terms;
-  const Simulated made = simulate_closed_loop(run, axis, 0.0, sensors, alike.size() > 1 ? &terms : nullptr);
-  for (const std::size_t i : alike) {
-    all[i] = i == alike.front() ? made : with_electrical(made, terms, moved.motor, axes[i].motor);
+  Simulated made = simulate_closed_loop(run, axis, 0.0, sensors, alike.size() > 1 ? &terms : nullptr);
+  for (const std::size_t i : alike)
+    if (i != alike.front()) all[i] = with_electrical(made, terms, moved.motor, axes[i].motor);
+  all[alike.front()] = std::move(made);
+  for (const std::size_t i : alike)
     if (recording.meter.instants) all[i].power_W.swap(all[i].instant_power_W);
-  }
 }
 
 std::vector<Simulated> ForwardModel::simulate(const ClosedLoopRun& run,
                                               const std::vector<plant::AxisParameters>& axes) const {
-  std::vector<std::vector<std::size_t>> groups;  // a number of another run's changes nothing in this one
+  std::vector<plant::AxisParameters> moving;  // a number of another run's changes nothing in this one; nan is like nothing
+  std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const auto known = std::ranges::find_if(
-        groups, [&](const auto& group) { return differ_electrically_at_most(axes[group.front()], axes[i]); });
-    if (known == groups.end())
+    auto own = without_electrical(axes[i]);
+    const auto known = std::ranges::find(moving, own);
+    if (known != moving.end()) {
+      groups[static_cast<std::size_t>(known - moving.begin())].push_back(i);
+    } else {
+      moving.push_back(std::move(own));
       groups.push_back({i});
-    else
-      known->push_back(i);
+    }
   }
   std::vector<Simulated> all(axes.size());
   parallel_for(groups.size(), [&](std::size_t g) { simulate_alike(run, axes, groups[g], all); });
