@@ -44,6 +44,7 @@ inline constexpr EffectEntry cable_spring{
     .parameters = cable_spring_parameters,
     .make = make_effect<CableSpring>,
     .hooks = hooks_of<CableSpring>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

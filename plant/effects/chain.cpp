@@ -95,11 +95,15 @@ AxisModel<double> EffectChain::driven(const AxisModel<double>& model) const noex
 
 Resolution EffectChain::at_least(Resolution resolution, bool calm) const noexcept {
   constexpr int waving = 3;  // 0.1 m/s and twelve periods a revolution: half a radian a sub-step
-  const bool quiet = !coupling_ && screw_loads_.empty() && table_loads_.empty() && advancing_.empty();
-  const int least = coupling_ ? coupling_->substeps(resolution.swinging, calm || !coupling_->has_gap()) : quiet ? 1 : waving;
-  resolution.sliding = std::max(resolution.sliding, least);
-  resolution.settling = std::max(resolution.settling, least);
-  resolution.reversing = std::max(resolution.reversing, 2 * least);
+  const auto moves = [](const Link& link) { return link.entry->hooks.load || link.entry->hooks.advance; };
+  const bool quiet = std::ranges::none_of(links_, moves);
+  const bool even =
+      std::ranges::all_of(links_, [&](const Link& link) { return !moves(link) || link.entry->even_in_motion; });
+  const int swing = coupling_ ? coupling_->substeps(resolution.swinging, calm || !coupling_->has_gap()) : 1;
+  const int in_motion = std::max(swing, even ? 1 : waving);
+  resolution.sliding = std::max(resolution.sliding, in_motion);
+  resolution.settling = std::max(resolution.settling, in_motion);
+  resolution.reversing = std::max(resolution.reversing, 2 * std::max(swing, quiet && !coupling_ ? 1 : waving));
   return resolution;
 }
 

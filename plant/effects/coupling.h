@@ -70,7 +70,7 @@ class Coupling {
   /// That a tick of a millisecond takes for its swing; a flank that may be hit or left asks for all.
   [[nodiscard]] int substeps(int most, bool flank_bears) const noexcept {
     constexpr double tick_s = 1e-3, largest_swing_rad = 2.6;
-    constexpr int least = 3;
+    constexpr int least = 2;
     const double wanted = std::ceil(std::sqrt(rate_squared_per_s2_) * tick_s / largest_swing_rad);
     return !flank_bears || wanted > most ? most : std::min(most, std::max(least, static_cast<int>(wanted)));
   }

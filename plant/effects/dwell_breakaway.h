@@ -59,6 +59,7 @@ inline constexpr EffectEntry dwell_breakaway{
     .parameters = dwell_breakaway_parameters,
     .make = make_effect<DwellBreakaway>,
     .hooks = hooks_of<DwellBreakaway>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

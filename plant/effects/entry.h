@@ -53,6 +53,8 @@ struct EffectEntry {
   /// Makes what runs in the tick; null where adapt is all.
   std::unique_ptr<Effect> (*make)(const EffectContext& context, const EffectSetting& setting) = nullptr;
   EffectHooks hooks{};
+  /// While the axis slides its force hardly changes along a tick, so that it asks for no sub-steps there.
+  bool even_in_motion = false;
   /// What is wrong with a setting whose numbers are each in range; empty: nothing. May be null.
   std::string (*problem)(const EffectSetting& setting) = nullptr;
 };

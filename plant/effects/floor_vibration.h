@@ -42,6 +42,7 @@ inline constexpr EffectEntry floor_vibration{
     .parameters = floor_vibration_parameters,
     .make = make_effect<FloorVibration>,
     .hooks = hooks_of<FloorVibration>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

@@ -36,6 +36,7 @@ inline constexpr EffectEntry gravity{
     .parameters = gravity_parameters,
     .make = make_effect<Gravity>,
     .hooks = hooks_of<Gravity>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

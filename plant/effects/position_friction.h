@@ -68,6 +68,7 @@ inline constexpr EffectEntry position_friction{
     .parameters = position_friction_parameters,
     .make = make_effect<PositionFriction>,
     .hooks = hooks_of<PositionFriction>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

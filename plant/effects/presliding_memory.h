@@ -83,6 +83,7 @@ inline constexpr EffectEntry presliding_memory{
     .parameters = presliding_memory_parameters,
     .make = make_effect<PreslidingMemory>,
     .hooks = hooks_of<PreslidingMemory>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

@@ -44,6 +44,7 @@ inline constexpr EffectEntry process_force{
     .parameters = process_force_parameters,
     .make = make_effect<ProcessForce>,
     .hooks = hooks_of<ProcessForce>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

@@ -40,6 +40,7 @@ inline constexpr EffectEntry quadratic_drag{
     .parameters = quadratic_drag_parameters,
     .make = make_effect<QuadraticDrag>,
     .hooks = hooks_of<QuadraticDrag>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

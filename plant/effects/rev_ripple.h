@@ -43,6 +43,7 @@ inline constexpr EffectEntry rev_ripple{
     .parameters = rev_ripple_parameters,
     .make = make_effect<RevRipple>,
     .hooks = hooks_of<RevRipple>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

@@ -54,6 +54,7 @@ inline constexpr EffectEntry sublinear_viscous{
     .parameters = sublinear_viscous_parameters,
     .make = make_effect<SublinearViscous>,
     .hooks = hooks_of<SublinearViscous>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/diagnose/lines.h"
+#include "tools/diagnose/neighbours.h"
 #include "tools/linear_systems.h"
 #include "tools/parallel.h"
 
@@ -127,10 +128,11 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
     if (one.refollow) refollowed.push_back({&one.model.axis, &one.model.effects});
   const auto contacts = model_.contacts(refollowed);
 
+  const Neighbours neighbours(model_, at.axis, at.effects, contacts.front());
   Fit fit;
   fit.model = at;
   fit.base = base_;
-  fit.residual = model_.residual(at.axis, at.effects, contacts.front());
+  fit.residual = neighbours.residual();
   fit.white = whitened(at, fit.residual, whitening);
   fit.cost = fit.white.squaredNorm();
   std::vector<const std::vector<ContactForces>*> own;
@@ -142,7 +144,9 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
     auto column = fit.jacobian.col(static_cast<Index>(u));
     column.setZero();
     if (step == 0.0) return;
-    column = (fit.white - whitened(near, model_.residual(near.axis, near.effects, *own[u]), whitening)) / step;
+    column.head(model_.rows()) = neighbours.fall(near.axis, near.effects, *own[u]) / step;
+    column.tail(static_cast<Index>(base_.size())) = (deviations(near.axis) - deviations(at.axis)) / step;
+    whitening.apply(model_, column.head(model_.rows()));
   });
 
   fit.information = gram(fit.jacobian);

@@ -24,12 +24,48 @@ struct Baseline {
 
 struct Contribution;
 
-/// What the law may look at.
-struct View {
+/// What a law may look at. It is noted what it looked at: where that is the same, it says the same.
+class View {
+ public:
+  View(const Track& run, const plant::AxisParameters& axis, const Baseline& base, const Contribution* on_table = nullptr)
+      : track(run), axis_(axis), base_(base), on_table_(on_table) {}
+
   const Track& track;
-  const plant::AxisParameters& axis;
-  const Baseline& base;
-  const Contribution* on_table = nullptr;  ///< what other effects load the table with; for laws that ask for it
+  [[nodiscard]] const plant::TransmissionParameters& transmission() const {
+    seen_.transmission = true;
+    return axis_.axis;
+  }
+  [[nodiscard]] const plant::LugreParameters& ball_screw() const {
+    seen_.ball_screw = true;
+    return axis_.ball_screw;
+  }
+  /// All numbers, for laws that need more of them.
+  [[nodiscard]] const plant::AxisParameters& axis() const {
+    seen_.axis = true;
+    return axis_;
+  }
+  [[nodiscard]] const Baseline& base() const {
+    seen_.base = true;
+    return base_;
+  }
+  /// What other effects load the table with; nullptr: nothing is known of it.
+  [[nodiscard]] const Contribution* on_table() const {
+    seen_.on_table = true;
+    return on_table_;
+  }
+
+  struct Seen {
+    bool transmission = false, ball_screw = false, axis = false, base = false, on_table = false;
+  };
+  [[nodiscard]] const Seen& seen() const { return seen_; }
+  /// The same view, at which nothing has looked yet.
+  [[nodiscard]] View unseen() const { return {track, axis_, base_, on_table_}; }
+
+ private:
+  const plant::AxisParameters& axis_;
+  const Baseline& base_;
+  const Contribution* on_table_;
+  mutable Seen seen_;
 };
 
 /// What an effect adds at every sample. An empty vector stands for zeros (ones for the factors).
@@ -166,6 +202,10 @@ struct Active {
 /// Is it an unknown of the inverse model, and of the intervals?
 [[nodiscard]] constexpr bool fitted(Kind kind) {
   return kind == Kind::amplitude || kind == Kind::shape;
+}
+/// Does it say more than factors on friction?
+[[nodiscard]] inline bool gives_forces(const Hypothesis& hypothesis) {
+  return !hypothesis.friction || hypothesis.forces_too;
 }
 /// Does it load the table with a force or a mass?
 [[nodiscard]] bool loads_table(const Hypothesis& hypothesis);

@@ -5,7 +5,9 @@
 
 #include "plant/axis_model.h"
 #include "tools/diagnose/inverse_model.h"
+#include "tools/diagnose/said.h"
 #include "tools/identify/lanes/follow.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -13,28 +15,73 @@ namespace {
 /// Factors on friction along a run, by sample; empty where the effects leave friction alone.
 struct Factors {
   Vector sliding, viscous;
+  std::vector<Said> said;  ///< by effect
 };
 
-Factors factors_of(const std::vector<Active>& effects, const plant::AxisParameters& axis, const Track& track) {
+/// @param like a model beside this one, of which what says the same is taken; nullptr: all is asked
+Factors factors_of(const InverseModel::Asked& model, const Track& track, const InverseModel::Asked* beside,
+                   const Factors* like, const Alike& alike) {
   constexpr double least = 0.05;
   const Baseline none;
+  const auto& effects = *model.effects;
   Contribution sum, on_table;
   const bool by_load = std::ranges::any_of(effects, [](const Active& a) { return a.hypothesis->by_load; });
   for (const auto& effect : effects)
-    if (by_load && loads_table(*effect.hypothesis)) effect.hypothesis->apply({track, axis, none}, effect.q, on_table);
-  for (const auto& effect : effects)
-    if (effect.hypothesis->friction) effect.hypothesis->apply({track, axis, none, &on_table}, effect.q, sum);
-  return {sum.screw_sliding.cwiseMax(least), sum.screw_viscous.cwiseMax(least)};
+    if (by_load && loads_table(*effect.hypothesis)) effect.hypothesis->apply({track, *model.axis, none}, effect.q, on_table);
+  std::vector<Said> said;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (!effects[e].hypothesis->friction) {
+      said.emplace_back();
+      continue;
+    }
+    const bool known =
+        like != nullptr && effects[e].q == (*beside->effects)[e].q && says_the_same(like->said[e].seen, alike);
+    said.push_back(known ? like->said[e] : said_by(effects[e], {track, *model.axis, none, &on_table}));
+    add(sum, said.back().adds);
+  }
+  return {sum.screw_sliding.cwiseMax(least), sum.screw_viscous.cwiseMax(least), std::move(said)};
 }
 
-/// Do both models scale friction alike? Laws look at the contacts, the table's mass and how the axis is built.
-bool alike(const InverseModel::Asked& one, const InverseModel::Asked& other) {
+/// What laws of friction look at: the contacts, the table's mass and how the axis is built.
+Alike in_common(const InverseModel::Asked& one, const InverseModel::Asked& other) {
   const auto &a = *one.axis, &b = *other.axis;
-  if (!(a.ball_screw == b.ball_screw && a.guide == b.guide && a.guide_mass_kg == b.guide_mass_kg && a.axis == b.axis))
-    return false;
-  return std::ranges::equal(*one.effects, *other.effects, [&](const Active& p, const Active& q) {
-    return p.hypothesis == q.hypothesis && (p.q == q.q || !moves_friction(*p.hypothesis, *one.effects));
+  Alike alike{.transmission = a.axis == b.axis, .ball_screw = a.ball_screw == b.ball_screw};
+  alike.axis = alike.transmission && alike.ball_screw && a.guide == b.guide && a.guide_mass_kg == b.guide_mass_kg;
+  alike.on_table = alike.axis && std::ranges::equal(*one.effects, *other.effects, [&](const Active& p, const Active& q) {
+                     return p.q == q.q || !loads_table(*p.hypothesis);
+                   });
+  alike.base = true;  // none is given
+  return alike;
+}
+
+bool same_factors(const InverseModel::Asked& one, const InverseModel::Asked& other, const std::vector<Factors>& said,
+                  const Alike& alike) {
+  for (std::size_t e = 0; e < one.effects->size(); ++e) {
+    if (!(*one.effects)[e].hypothesis->friction) continue;
+    if ((*one.effects)[e].q != (*other.effects)[e].q) return false;
+    for (const auto& run : said)
+      if (!says_the_same(run.said[e].seen, alike)) return false;
+  }
+  return true;
+}
+
+/// By model and run; mostly those of the first model.
+std::vector<std::shared_ptr<const std::vector<Factors>>> all_factors(const std::vector<InverseModel::Asked>& models,
+                                                                     const std::vector<Track>& tracks) {
+  const auto& first = models.front();
+  const auto of_first = std::make_shared<std::vector<Factors>>(tracks.size());
+  parallel_for(tracks.size(),
+               [&](std::size_t run) { (*of_first)[run] = factors_of(first, tracks[run], nullptr, nullptr, {}); });
+  std::vector<std::shared_ptr<const std::vector<Factors>>> factors(models.size(), of_first);
+  parallel_for(models.size(), [&](std::size_t m) {
+    const Alike alike = in_common(first, models[m]);
+    if (m == 0 || same_factors(first, models[m], *of_first, alike)) return;
+    auto own = std::make_shared<std::vector<Factors>>();
+    for (std::size_t run = 0; run < tracks.size(); ++run)
+      own->push_back(factors_of(models[m], tracks[run], &first, &(*of_first)[run], alike));
+    factors[m] = std::move(own);
   });
+  return factors;
 }
 
 const double* data_or_none(const Vector& values) {
@@ -47,17 +94,8 @@ std::vector<std::vector<ContactForces>> InverseModel::contacts(const std::vector
   const std::size_t runs = tracks_.size();
   std::vector<std::vector<ContactForces>> forces(models.size(), std::vector<ContactForces>(runs));
   std::vector<plant::Contacts<double>> laws;
-  std::vector<std::shared_ptr<const std::vector<Factors>>> factors;  // by run; mostly those of the first model
-  for (const auto& model : models) {
-    laws.push_back(plant::make_axis_model(*model.axis).contacts);
-    if (!factors.empty() && alike(models.front(), model)) {
-      factors.push_back(factors.front());
-      continue;
-    }
-    auto own = std::make_shared<std::vector<Factors>>();
-    for (const Track& track : tracks_) own->push_back(factors_of(*model.effects, *model.axis, track));
-    factors.push_back(std::move(own));
-  }
+  for (const auto& model : models) laws.push_back(plant::make_axis_model(*model.axis).contacts);
+  const auto factors = all_factors(models, tracks_);
   std::vector<lanes::FollowedMotion> motions;
   for (std::size_t run = 0; run < runs; ++run) {  // lanes side by side read the same motion
     const Track& track = tracks_[run];

@@ -36,7 +36,7 @@ std::vector<Equation> equations_for(const Track& track) {
 Contribution contribution_of(const std::vector<Active>& effects, const View& view) {
   Contribution sum;
   for (const auto& effect : effects)
-    if (!effect.hypothesis->friction || effect.hypothesis->forces_too) effect.hypothesis->apply(view, effect.q, sum);
+    if (gives_forces(*effect.hypothesis)) effect.hypothesis->apply(view, effect.q, sum);
   return sum;
 }
 

@@ -80,6 +80,15 @@ class InverseModel {
   /// computed; `residual` is the prepared model's own.
   [[nodiscard]] Vector fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
                             const Active& more) const;
+  /// What a model says along one run.
+  struct Modelled {
+    const plant::AxisParameters& axis;
+    const Contribution& extra;
+    const Baseline& base;
+  };
+  /// Puts into a run's rows how the residual falls from one model to another; rows that are the same stay as they are.
+  /// @param residual the first model's own, weighted
+  void add_fall(std::size_t run, const Modelled& from, const Modelled& to, const Vector& residual, Vector& rows) const;
   /// Recorded less modelled, all rows, weighted. `contacts` from the function above (or of an equal model).
   [[nodiscard]] Vector residual(const plant::AxisParameters& axis, const std::vector<Active>& effects,
                                 const std::vector<ContactForces>& contacts) const;

@@ -91,30 +91,55 @@ struct Step {
   double fall = 0.0, factor = 0.0;  ///< of the cost; on the damping
 };
 
+/// Of the steps that a damping's factors make the best, by the residuals of one batch.
+Step best_of(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, const MatrixXd& normal,
+             const VectorXd& gradient, double damping, std::span<const double> factors) {
+  MatrixXd points(at.point.size(), static_cast<Index>(factors.size()));
+  for (Index i = 0; i < points.cols(); ++i) {
+    points.col(i) = damped_point(problem, at, normal, gradient, damping * factors[static_cast<std::size_t>(i)]);
+    if (!points.col(i).allFinite()) points.col(i) = at.point;  // no numbers are no axis to simulate
+  }
+  const MatrixXd residuals = problem.residuals(points);
+  Index best = 0;
+  for (Index i = 1; i < points.cols(); ++i)
+    if (cost_of(residuals.col(i)) < cost_of(residuals.col(best))) best = i;
+  const double fall = at.cost - cost_of(residuals.col(best));
+  return {points.col(best), residuals.col(best), fall, factors[static_cast<std::size_t>(best)]};
+}
+
 /// With fresh slopes shorter steps are tried as long as none goes down; `damping` is what it took.
 Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, bool fresh, double& damping) {
   constexpr double strongest_damping = 1e6;  // a step of a millionth of Newton's: there is no way down
   constexpr std::array many{0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4};
-  constexpr std::array few{0.0, 1.0, 30.0, 1e3};
-  const std::span<const double> factors =
-      problem.kept_steps > 0 ? std::span<const double>(few) : std::span<const double>(many);
+  constexpr std::array bold{0.1, 10.0}, shorter{100.0, 1e4};  // where slopes are kept a step costs as they do
   const MatrixXd normal = gram(at.jacobian);
   const VectorXd gradient = at.jacobian.transpose() * at.residuals;
-  MatrixXd points(at.point.size(), static_cast<Index>(factors.size()));
   for (;;) {
-    for (Index i = 0; i < points.cols(); ++i) {
-      points.col(i) = damped_point(problem, at, normal, gradient, damping * factors[static_cast<std::size_t>(i)]);
-      if (!points.col(i).allFinite()) points.col(i) = at.point;  // no numbers are no axis to simulate
-    }
-    const MatrixXd residuals = problem.residuals(points);
-    Index best = 0;
-    for (Index i = 1; i < points.cols(); ++i)
-      if (cost_of(residuals.col(i)) < cost_of(residuals.col(best))) best = i;
-    const double fall = at.cost - cost_of(residuals.col(best));
-    if (fall > 0.0 || !fresh || damping * factors.back() >= strongest_damping)
-      return {points.col(best), residuals.col(best), fall, factors[static_cast<std::size_t>(best)]};
-    damping = std::max(damping, 1e-4) * factors.back();  // no step that bold goes down: shorter ones
+    const auto best_by = [&](std::span<const double> factors) {
+      return best_of(problem, at, normal, gradient, damping, factors);
+    };
+    Step step = best_by(problem.kept_steps > 0 ? std::span<const double>(bold) : std::span<const double>(many));
+    if (problem.kept_steps > 0 && !(step.fall > 0.0)) step = best_by(shorter);
+    const double shortest = problem.kept_steps > 0 ? shorter.back() : many.back();
+    if (step.fall > 0.0 || !fresh || damping * shortest >= strongest_damping) return step;
+    damping = std::max(damping, 1e-4) * shortest;  // no step that bold goes down: shorter ones
   }
+}
+
+/// Fall of the cost that straight slopes promise in the first so many unknowns.
+double promise(const MatrixXd& normal, const VectorXd& gradient, Index unknowns) {
+  MatrixXd a = normal.topLeftCorner(unknowns, unknowns);
+  a.diagonal() += 1e-9 * a.diagonal();
+  const VectorXd g = gradient.head(unknowns);
+  return 0.5 * g.dot(solved(a, g));
+}
+
+/// What the unknowns that are asked about promise beyond the others.
+double promise_of_asked(const LeastSquaresProblem& problem, const LeastSquaresSolution& at) {
+  const MatrixXd normal = gram(at.jacobian);
+  const VectorXd gradient = at.jacobian.transpose() * at.residuals;
+  const Index all = gradient.size();
+  return promise(normal, gradient, all) - promise(normal, gradient, all - problem.asked);
 }
 
 }  // namespace
@@ -126,6 +151,10 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
   double damping = 1e-2;
   for (; at.iterations < problem.most_iterations; ++at.iterations) {
     linearise(problem, at);
+    if (at.iterations == 0 && problem.asked > 0 && promise_of_asked(problem, at) < problem.least_promise) {
+      at.converged = true;
+      return at;
+    }
     for (int kept = 0; kept <= problem.kept_steps; ++kept) {
       const double least = std::max(problem.least_fall, problem.cost_tolerance * at.cost);
       const Step step = best_step(problem, at, kept == 0, damping);

@@ -21,6 +21,10 @@ struct LeastSquaresProblem {
   /// Further steps on the same slopes, corrected by what each step saw (Broyden 1965), where slopes cost many simulations;
   /// then few lengths of a step are tried at once rather than many.
   int kept_steps = 0;
+  /// Of the last so many unknowns it is asked whether they bring anything: where straight slopes promise less of them,
+  /// beyond what the others would bring, the search ends where it starts.
+  Eigen::Index asked = 0;
+  double least_promise = 0.0;  ///< fall of the cost
 };
 
 struct LeastSquaresSolution {

@@ -78,6 +78,8 @@ LeastSquaresProblem problem_for(const std::vector<FitParameter>& parameters, Res
   problem.most_iterations = settings.most_iterations;
   problem.kept_steps = settings.kept_steps;
   problem.least_fall = settings.least_fall;
+  problem.asked = settings.asked;
+  problem.least_promise = settings.least_promise;
   return problem;
 }
 
@@ -97,6 +99,8 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
   // white rows are told far more nats than coloured ones are worth, and all is weighed anew
   constexpr double first_falls = 10.0;
   for (int round = 0; round < settings.rounds; ++round) {
+    if (settings.round_begins) settings.round_begins(round);
+    if (round > 0) problem.asked = 0;
     problem.least_fall = settings.least_fall * (round + 1 < settings.rounds ? first_falls : 1.0);
     stack.weigh(problem.start, round > 0 || settings.coloured_from_start, round > 0);
     at = solve_least_squares(problem);

@@ -49,9 +49,12 @@ struct OutputErrorSettings {
   bool coloured_from_start = false;  ///< else the first round takes the residuals for white
   bool intervals = true;             ///< else the covariance is left out, and its simulations with it
   int most_iterations = 25;
-  int kept_steps = 0;            ///< for simulators without lanes; this and the next: see LeastSquaresProblem
-  double least_fall = 0.0;       ///< of the cost, in nats
-  const Ranks* ranks = nullptr;  ///< who shares the simulations; nullptr: nobody
+  int kept_steps = 0;          ///< for simulators without lanes; this and the next: see LeastSquaresProblem
+  double least_fall = 0.0;     ///< of the cost, in nats
+  Eigen::Index asked = 0;      ///< in the first round; this and the next: see LeastSquaresProblem
+  double least_promise = 0.0;  ///< in nats
+  std::function<void(int round)> round_begins = {};
+  const Ranks* ranks = nullptr;                           ///< who shares the simulations; nullptr: nobody
   std::function<void(const std::string& line)> progress;  ///< told of every round; may be empty
 };
 

@@ -67,7 +67,7 @@ CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis
 }
 
 plant::AxisParameters with_table_less(plant::AxisParameters axis, double times) {
-  const double k = per_lead(axis), less = 1.0 - 1.0 / times;
+  const double k = per_lead(axis.axis), less = 1.0 - 1.0 / times;
   const auto give = [&](double& table, double& screw) {
     screw += less * table;
     table -= less * table;

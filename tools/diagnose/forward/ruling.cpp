@@ -48,8 +48,9 @@ Ruling judged(Ruling ruling, const Fitter& fitter) {
 
 /// @param known slopes of an explanation beside it; none: seen anew
 /// @param of_effects are those of the effects' numbers known too?
+/// @param least_promise_nats of the last effect: where slopes promise less, nothing is polished
 Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
-                int most_iterations, const SeenSlopes& known, bool of_effects = false) {
+                int most_iterations, const SeenSlopes& known, bool of_effects = false, double least_promise_nats = 0.0) {
   PolishSettings settings;
   settings.rounds = 1;
   settings.most_iterations = most_iterations;
@@ -62,10 +63,12 @@ Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forw
   settings.known = known.slopes.get();
   if (of_effects) settings.known_effects = alike_to_begin_with(known.effects, effects);
   settings.learned = learned.get();
+  settings.least_promise_nats = least_promise_nats;
   Ruling ruling{fit, start, likelihood(forward, extended(start)), 0.0, learned ? SeenSlopes{learned, effects} : known};
-  const Candidate better = polish(forward, fitter, start, settings).model;
-  if (auto found = likelihood(forward, extended(better)); found.total() > ruling.likelihood.total())
-    ruling.model = better, ruling.likelihood = std::move(found);
+  const Polished better = polish(forward, fitter, start, settings);
+  const auto found = better.moved ? likelihood(forward, extended(better.model)) : ruling.likelihood;
+  if (found.total() > ruling.likelihood.total())
+    ruling.model = better.model, ruling.likelihood = found;
   else
     ruling.exhausted = learned && most_iterations == further_iterations;
   return judged(std::move(ruling), fitter);
@@ -96,8 +99,10 @@ Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& for
                   slopes == SlopesOf::before ? before.seen : SeenSlopes{});
 }
 
-Ruling glance_at_one_more(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
-  return polished(fit, with_numbers_of(before.model, fit.model), forward, fitter, further_iterations, before.seen, true);
+Ruling glance_at_one_more(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
+                          double least_promise_nats) {
+  return polished(fit, with_numbers_of(before.model, fit.model), forward, fitter, further_iterations, before.seen, true,
+                  least_promise_nats);
 }
 
 Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const ForwardModel& forward,
@@ -109,6 +114,14 @@ Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const
     if (effect.hypothesis->parameters[j].kind == Kind::amplitude) effect.q[j] = 0.0;
   Ruling from_none = rule_beside(before, fit, forward, fitter, SlopesOf::anew);
   return from_none.value > one.value ? from_none : one;
+}
+
+Polished polish_settled(const Ruling& settled, const ForwardModel& forward, const Fitter& fitter) {
+  PolishSettings settings;
+  settings.known = settled.seen.slopes.get();
+  settings.known_effects = alike_to_begin_with(settled.seen.effects, effects_of(settled.model));
+  settings.known_to_begin_with = true;
+  return polish(forward, fitter, settled.model, settings);
 }
 
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter) {

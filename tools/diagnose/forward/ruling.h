@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "tools/diagnose/forward/likelihood.h"
+#include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/forward/slopes.h"
 #include "tools/diagnose/search.h"
 
@@ -45,12 +46,15 @@ enum class SlopesOf { before, anew };
                                  SlopesOf slopes);
 /// One effect more than before, its last, from the numbers before and along all slopes that were seen then: what it may
 /// bring.
+/// @param least_promise_nats where straight slopes promise less of it, no step is simulated
 [[nodiscard]] Ruling glance_at_one_more(const Ruling& before, const Fit& fit, const ForwardModel& forward,
-                                        const Fitter& fitter);
+                                        const Fitter& fitter, double least_promise_nats);
 /// One effect more than before. Where that goes astray, since without any of it the runs are likelier, from none.
 /// @param more its place among the fit's effects
 [[nodiscard]] Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const ForwardModel& forward,
                                         const Fitter& fitter);
+/// The last word on its numbers: the first steps go along the slopes that were seen, all others along slopes of their own.
+[[nodiscard]] Polished polish_settled(const Ruling& settled, const ForwardModel& forward, const Fitter& fitter);
 /// The one that is behind is polished further, from its own numbers or the other's, as long as that helps and it is not
 /// hopelessly behind: what decides must not be who was polished more.
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter);

@@ -9,7 +9,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.motor_N, per_lead(view.axis) * wave(view.track.position_m, view.axis.axis.lead_m, q[2], q[0], q[1]));
+  add(sum.motor_N,
+      per_lead(view.transmission()) * wave(view.track.position_m, view.transmission().lead_m, q[2], q[0], q[1]));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

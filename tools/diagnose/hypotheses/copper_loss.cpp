@@ -9,7 +9,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const double k = per_lead(view.axis);
+  const double k = per_lead(view.transmission());
   add(sum.power_W, q[0] / (k * k) * view.track.held_N.cwiseAbs2());
 }
 

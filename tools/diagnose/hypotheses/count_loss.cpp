@@ -33,17 +33,17 @@ Vector lost(const Vector& shown_m, double per_pass_m, double lead_m, double mark
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const double lead_m = view.axis.axis.lead_m, count_m = lead_m / view.axis.axis.encoder_counts_per_rev;
+  const double lead_m = view.transmission().lead_m, count_m = lead_m / view.transmission().encoder_counts_per_rev;
   const Vector lost_m = lost(track.shown_m, q[0] * count_m, lead_m, q[1] / (2.0 * std::numbers::pi));
   add(sum.slip_m, lost_m);
   Vector acceleration = Vector::Zero(track.size);  // that is not there
   const Index n = track.size;
   acceleration.segment(1, n - 2) =
       (lost_m.tail(n - 2) - 2.0 * lost_m.segment(1, n - 2) + lost_m.head(n - 2)) / (track.sample_s * track.sample_s);
-  const double k = per_lead(view.axis);
-  add(sum.motor_N, view.axis.motor.inertia_kgm2 * k * k * acceleration);
-  add(sum.screw_N, view.axis.ball_screw_inertia_kgm2 * k * k * acceleration);
-  if (track.slip_m.size() == 0) add(sum.guide_N, view.axis.guide_mass_kg * acceleration);
+  const double k = per_lead(view.transmission());
+  add(sum.motor_N, view.axis().motor.inertia_kgm2 * k * k * acceleration);
+  add(sum.screw_N, view.axis().ball_screw_inertia_kgm2 * k * k * acceleration);
+  if (track.slip_m.size() == 0) add(sum.guide_N, view.axis().guide_mass_kg * acceleration);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

@@ -10,16 +10,16 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const Vector error = wave(track.position_m, view.axis.axis.lead_m, q[2], q[0], q[1]);
+  const Vector error = wave(track.position_m, view.transmission().lead_m, q[2], q[0], q[1]);
   Vector acceleration = Vector::Zero(track.size);  // that is not there
   const Index n = track.size;
   acceleration.segment(1, n - 2) =
       (error.tail(n - 2) - 2.0 * error.segment(1, n - 2) + error.head(n - 2)) / (track.sample_s * track.sample_s);
-  const double k = per_lead(view.axis);
+  const double k = per_lead(view.transmission());
   add(sum.slip_m, -error);
-  add(sum.motor_N, -view.axis.motor.inertia_kgm2 * k * k * acceleration);
-  add(sum.screw_N, -view.axis.ball_screw_inertia_kgm2 * k * k * acceleration);
-  if (track.slip_m.size() == 0) add(sum.guide_N, -view.axis.guide_mass_kg * acceleration);
+  add(sum.motor_N, -view.axis().motor.inertia_kgm2 * k * k * acceleration);
+  add(sum.screw_N, -view.axis().ball_screw_inertia_kgm2 * k * k * acceleration);
+  if (track.slip_m.size() == 0) add(sum.guide_N, -view.axis().guide_mass_kg * acceleration);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

@@ -11,8 +11,8 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const auto& screw = view.axis.ball_screw;
-  const auto& guide = view.axis.guide;
+  const auto& screw = view.ball_screw();
+  const auto& guide = view.axis().guide;
   constexpr double small_m_per_s = 1e-4;
   const double kept = q[0] > 1e-9 ? std::exp(-track.sample_s / q[0]) : 0.0;
   Vector factor = Vector::Ones(track.size), screw_N(track.size), guide_N(track.size);

@@ -7,7 +7,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.drive_N, q[0] * per_lead(view.axis) * (view.track.centred_m_per_s.array() / q[1]).tanh().matrix());
+  add(sum.drive_N, q[0] * per_lead(view.transmission()) * (view.track.centred_m_per_s.array() / q[1]).tanh().matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

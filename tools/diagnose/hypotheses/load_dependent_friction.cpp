@@ -12,14 +12,15 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const auto& coulomb = view.axis.ball_screw.coulomb_N;
-  const Contribution none, &loads = view.on_table != nullptr ? *view.on_table : none;
-  const double mass_kg = view.axis.guide_mass_kg + loads.table_mass_kg;
+  const auto& coulomb = view.ball_screw().coulomb_N;
+  const Contribution none, &loads = view.on_table() != nullptr ? *view.on_table() : none;
+  const double mass_kg = view.axis().guide_mass_kg + loads.table_mass_kg;
   Vector factor = Vector::Ones(track.size);
   for (Index k = 1; k < track.size; ++k) {  // from the smoothed motion: its noise would be rectified
     const double change = track.table_velocity_m_per_s[k] - track.table_velocity_m_per_s[k - 1];
     const double load_N = loads.guide_N.size() > 0 ? loads.guide_N[k] : 0.0;
-    const double guide_N = q[1] > 0.0 ? q[1] * plant::steady_force_N(view.axis.guide, track.table_velocity_m_per_s[k]) : 0.0;
+    const double guide_N =
+        q[1] > 0.0 ? q[1] * plant::steady_force_N(view.axis().guide, track.table_velocity_m_per_s[k]) : 0.0;
     const double nut_N = std::abs(mass_kg * change / track.sample_s + load_N + guide_N);
     factor[k] += q[0] * nut_N / (track.velocity_m_per_s[k] > 0.0 ? coulomb.pos : coulomb.neg);
   }

@@ -20,7 +20,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
   const double inertia_kgm2 = axis.motor.inertia_kgm2 + axis.ball_screw_inertia_kgm2;
   return q[0] > 0.2 * axis.guide_mass_kg &&
-         q[0] < 10.0 * (axis.guide_mass_kg + inertia_kgm2 * per_lead(axis) * per_lead(axis));
+         q[0] < 10.0 * (axis.guide_mass_kg + inertia_kgm2 * per_lead(axis.axis) * per_lead(axis.axis));
 }
 
 }  // namespace

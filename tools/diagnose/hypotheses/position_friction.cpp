@@ -9,7 +9,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const auto& axis = view.axis.axis;
+  const auto& axis = view.transmission();
   const Vector share = (view.track.position_m.array() - axis.stroke_centre_m).matrix() / (0.5 * axis.stroke_m);
   scale(sum.screw_sliding, (1.0 + q[0] * share.array()).matrix());
   const auto v = view.track.centred_m_per_s.array();

@@ -9,7 +9,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.power_W, q[0] * (-view.base.power_W).cwiseMax(0.0));
+  add(sum.power_W, q[0] * (-view.base().power_W).cwiseMax(0.0));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

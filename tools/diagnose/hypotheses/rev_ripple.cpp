@@ -12,7 +12,7 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const auto line = line_of_run(q, view.track.run);
   if (line == 0.0) return;
-  add(sum.screw_N, wave(view.track.position_m, view.axis.axis.lead_m, q.back(), line.real(), line.imag()));
+  add(sum.screw_N, wave(view.track.position_m, view.transmission().lead_m, q.back(), line.real(), line.imag()));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

@@ -19,11 +19,12 @@ bool about(std::span<const double> q, Sensor sensor) {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   // of the force that the model says is there: the reading's own noise has no part in it
-  if (view.base.screw_N.size() == 0) return;
+  if (view.base().screw_N.size() == 0) return;
   const Track& track = view.track;
-  const double k = per_lead(view.axis);
-  const Vector table = view.base.guide_N + view.axis.guide_mass_kg * track.table_acceleration_m_per_s2;
-  const Vector screw = table + view.base.screw_N + view.axis.ball_screw_inertia_kgm2 * k * k * track.acceleration_m_per_s2;
+  const double k = per_lead(view.transmission());
+  const Vector table = view.base().guide_N + view.axis().guide_mass_kg * track.table_acceleration_m_per_s2;
+  const Vector screw =
+      table + view.base().screw_N + view.axis().ball_screw_inertia_kgm2 * k * k * track.acceleration_m_per_s2;
   if (about(q, torque) && track.torque_sensor_N.size() > 0) add(sum.torque_sensor_N, q[0] * screw);
   if (about(q, force) && track.force_sensor_N.size() > 0) add(sum.force_sensor_N, q[1] * table);
 }

@@ -42,7 +42,7 @@ Vector wave(const Vector& x, double period, double order, double sine, double co
 Vector force_on_table(const View& view) {
   const Track& track = view.track;
   if (track.force_sensor_N.size() > 0) return track.force_sensor_N;
-  return view.base.guide_N + view.axis.guide_mass_kg * track.table_acceleration_m_per_s2;
+  return view.base().guide_N + view.axis().guide_mass_kg * track.table_acceleration_m_per_s2;
 }
 
 Vector delayed(const Vector& values, double samples) {

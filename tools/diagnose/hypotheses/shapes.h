@@ -9,8 +9,8 @@
 namespace feedtwin::tools::diagnosis {
 
 /// 2 pi / lead.
-[[nodiscard]] inline double per_lead(const plant::AxisParameters& axis) {
-  return 2.0 * std::numbers::pi / axis.axis.lead_m;
+[[nodiscard]] inline double per_lead(const plant::TransmissionParameters& transmission) {
+  return 2.0 * std::numbers::pi / transmission.lead_m;
 }
 
 /// sine sin(2 pi n x / period) + cosine cos(...)

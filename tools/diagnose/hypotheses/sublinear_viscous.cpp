@@ -11,7 +11,7 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   constexpr double reference_m_per_s = 0.1, small_m_per_s = 1e-4;
   const Track& track = view.track;
-  const auto& mu = view.axis.ball_screw.viscous_Ns_per_m;
+  const auto& mu = view.ball_screw().viscous_Ns_per_m;
   Vector force(track.size);
   for (Index k = 0; k < track.size; ++k) {
     const double v = track.centred_m_per_s[k];

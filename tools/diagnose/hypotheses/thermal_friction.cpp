@@ -14,7 +14,7 @@ constexpr std::size_t first_state = 2;
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const auto& screw = view.axis.ball_screw;
+  const auto& screw = view.ball_screw();
   Vector factor(track.size);
   const double before = q[state_of_run(first_state, track.run)];
   double work_J = 0.0;

@@ -9,7 +9,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add(sum.drive_N, Vector::Constant(view.track.size, q[0] * per_lead(view.axis)));
+  add(sum.drive_N, Vector::Constant(view.track.size, q[0] * per_lead(view.transmission())));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {

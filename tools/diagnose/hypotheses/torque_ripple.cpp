@@ -11,7 +11,7 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const auto ripple = [&](const Vector& torque_N, const Vector& at_m) -> Vector {
-    return torque_N.cwiseProduct(wave(at_m, view.axis.axis.lead_m, q[2], q[0], q[1]));
+    return torque_N.cwiseProduct(wave(at_m, view.transmission().lead_m, q[2], q[0], q[1]));
   };
   const Vector about = ripple(track.command_N, track.position_m);
   add(sum.drive_N, about);

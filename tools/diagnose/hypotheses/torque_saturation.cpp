@@ -9,7 +9,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const double limit = q[1] * per_lead(view.axis);
+  const double limit = q[1] * per_lead(view.transmission());
   add(sum.drive_N, q[0] * about_sample((view.track.held_N.cwiseMax(-limit).cwiseMin(limit) - view.track.held_N).eval()));
 }
 
