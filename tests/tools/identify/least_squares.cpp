@@ -183,6 +183,28 @@ TEST(LeastSquares, EndsWhereAStepIsWorthLessThanAsked) {
   }
 }
 
+// A question whose answer straight slopes know already costs one batch and no step.
+TEST(LeastSquares, TakesNoStepWhereWhatIsAskedPromisesTooLittle) {
+  std::mt19937_64 random(76);
+  for (int round = 0; round < 20; ++round) {
+    const MatrixXd a = random_matrix(random, 40, 6);
+    const VectorXd b = random_matrix(random, 40, 1);
+    auto problem = within(6, -100.0, 100.0);
+    int batches = 0;
+    problem.residuals = [&](const MatrixXd& points) { return ++batches, MatrixXd((a * points).colwise() - b); };
+    problem.kept_steps = 2;
+    problem.asked = 2;
+    const VectorXd with = a * a.colPivHouseholderQr().solve(b) - b,
+                   without = a.leftCols(4) * a.leftCols(4).colPivHouseholderQr().solve(b) - b;
+    const double worth = 0.5 * (without.squaredNorm() - with.squaredNorm());
+    problem.least_promise = 1.01 * worth;
+    EXPECT_EQ(solve_least_squares(problem).point, problem.start) << round;
+    EXPECT_EQ(batches, 1) << round;
+    problem.least_promise = 0.99 * worth;
+    EXPECT_NEAR(solve_least_squares(problem).cost, 0.5 * with.squaredNorm(), 1e-6 * with.squaredNorm()) << round;
+  }
+}
+
 TEST(LeastSquares, SaysWhenItRanOutOfIterations) {
   auto problem = within(1, -1e9, 1e9);
   problem.start << 1e6;
