@@ -111,7 +111,7 @@ Step best_of(const LeastSquaresProblem& problem, const LeastSquaresSolution& at,
 Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, bool fresh, double& damping) {
   constexpr double strongest_damping = 1e6;  // a step of a millionth of Newton's: there is no way down
   constexpr std::array many{0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4};
-  constexpr std::array bold{0.1, 10.0}, shorter{100.0, 1e4};  // where slopes are kept a step costs as they do
+  constexpr std::array bold{0.0, 30.0}, shorter{1.0, 1e3};  // where slopes are kept a step costs as they do
   const MatrixXd normal = gram(at.jacobian);
   const VectorXd gradient = at.jacobian.transpose() * at.residuals;
   for (;;) {
