@@ -157,8 +157,7 @@ class Diagnosing {
     covariance_ = covariance_of(fit_);
     by_inverse_model_ = fit_;
     progress_("polishing the numbers by closed-loop simulation");
-    if (!unknown_)
-      take_polished(settled_ ? polish_settled(*settled_, forward_, fitter_) : polish(forward_, fitter_, fit_.model));
+    if (!unknown_) take_polished(polish_settled(settled_, fit_.model, forward_, fitter_));
     found_.recalibrated.model =
         fit_.model.effects.empty() ? fit_.model : polished_if_closer(forward_, fitter_, found_.recalibrated.model);
   }

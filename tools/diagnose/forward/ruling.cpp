@@ -116,12 +116,14 @@ Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const
   return from_none.value > one.value ? from_none : one;
 }
 
-Polished polish_settled(const Ruling& settled, const ForwardModel& forward, const Fitter& fitter) {
+Polished polish_settled(const std::optional<Ruling>& settled, const Candidate& otherwise, const ForwardModel& forward,
+                        const Fitter& fitter) {
+  if (!settled) return polish(forward, fitter, otherwise);
   PolishSettings settings;
-  settings.known = settled.seen.slopes.get();
-  settings.known_effects = alike_to_begin_with(settled.seen.effects, effects_of(settled.model));
+  settings.known = settled->seen.slopes.get();
+  settings.known_effects = alike_to_begin_with(settled->seen.effects, effects_of(settled->model));
   settings.known_to_begin_with = true;
-  return polish(forward, fitter, settled.model, settings);
+  return polish(forward, fitter, settled->model, settings);
 }
 
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter) {

@@ -3,6 +3,7 @@
 // that would do for two explanations must not decide between them, so each also starts from the other's.
 
 #include <memory>
+#include <optional>
 
 #include "tools/diagnose/forward/likelihood.h"
 #include "tools/diagnose/forward/polish.h"
@@ -54,7 +55,9 @@ enum class SlopesOf { before, anew };
 [[nodiscard]] Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const ForwardModel& forward,
                                         const Fitter& fitter);
 /// The last word on its numbers: the first steps go along the slopes that were seen, all others along slopes of their own.
-[[nodiscard]] Polished polish_settled(const Ruling& settled, const ForwardModel& forward, const Fitter& fitter);
+/// @param otherwise the model where the closed loop was not asked: nothing was seen of it
+[[nodiscard]] Polished polish_settled(const std::optional<Ruling>& settled, const Candidate& otherwise,
+                                      const ForwardModel& forward, const Fitter& fitter);
 /// The one that is behind is polished further, from its own numbers or the other's, as long as that helps and it is not
 /// hopelessly behind: what decides must not be who was polished more.
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter);
