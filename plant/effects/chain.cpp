@@ -97,8 +97,8 @@ Resolution EffectChain::at_least(Resolution resolution, bool calm) const noexcep
   constexpr int waving = 3;  // 0.1 m/s and twelve periods a revolution: half a radian a sub-step
   const auto moves = [](const Link& link) { return link.entry->hooks.load || link.entry->hooks.advance; };
   const bool quiet = std::ranges::none_of(links_, moves);
-  const bool even =
-      std::ranges::all_of(links_, [&](const Link& link) { return !moves(link) || link.entry->even_in_motion; });
+  const bool even = std::ranges::all_of(
+      links_, [&](const Link& link) { return moves(link) ? link.entry->even_in_motion : !link.entry->uneven_in_motion; });
   const int swing = coupling_ ? coupling_->substeps(resolution.swinging, calm || !coupling_->has_gap()) : 1;
   const int in_motion = std::max(swing, even ? 1 : waving);
   resolution.sliding = std::max(resolution.sliding, in_motion);

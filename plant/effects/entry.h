@@ -55,6 +55,8 @@ struct EffectEntry {
   EffectHooks hooks{};
   /// While the axis slides its force hardly changes along a tick, so that it asks for no sub-steps there.
   bool even_in_motion = false;
+  /// Of what only scales friction: by a load that changes along a tick, so that it asks for them.
+  bool uneven_in_motion = false;
   /// What is wrong with a setting whose numbers are each in range; empty: nothing. May be null.
   std::string (*problem)(const EffectSetting& setting) = nullptr;
 };

@@ -56,6 +56,7 @@ inline constexpr EffectEntry load_dependent_friction{
     .parameters = load_dependent_friction_parameters,
     .make = make_effect<LoadDependentFriction>,
     .hooks = hooks_of<LoadDependentFriction>(),
+    .uneven_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects
