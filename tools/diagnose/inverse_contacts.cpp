@@ -15,7 +15,7 @@ namespace {
 /// Factors on friction along a run, by sample; empty where the effects leave friction alone.
 struct Factors {
   Vector sliding, viscous;
-  std::vector<Said> said;  ///< by effect
+  std::vector<Said> said;  ///< by effect, of a model that others stand beside
 };
 
 /// @param like a model beside this one, of which what says the same is taken; nullptr: all is asked
@@ -28,16 +28,16 @@ Factors factors_of(const InverseModel::Asked& model, const Track& track, const I
   const bool by_load = std::ranges::any_of(effects, [](const Active& a) { return a.hypothesis->by_load; });
   for (const auto& effect : effects)
     if (by_load && loads_table(*effect.hypothesis)) effect.hypothesis->apply({track, *model.axis, none}, effect.q, on_table);
-  std::vector<Said> said;
+  std::vector<Said> said(like == nullptr ? effects.size() : 0);
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    if (!effects[e].hypothesis->friction) {
-      said.emplace_back();
+    if (!effects[e].hypothesis->friction) continue;
+    if (like != nullptr && effects[e].q == (*beside->effects)[e].q && says_the_same(like->said[e].seen, alike)) {
+      add(sum, like->said[e].adds);
       continue;
     }
-    const bool known =
-        like != nullptr && effects[e].q == (*beside->effects)[e].q && says_the_same(like->said[e].seen, alike);
-    said.push_back(known ? like->said[e] : said_by(effects[e], {track, *model.axis, none, &on_table}));
-    add(sum, said.back().adds);
+    Said own = said_by(effects[e], {track, *model.axis, none, &on_table});
+    add(sum, own.adds);
+    if (like == nullptr) said[e] = std::move(own);
   }
   return {sum.screw_sliding.cwiseMax(least), sum.screw_viscous.cwiseMax(least), std::move(said)};
 }

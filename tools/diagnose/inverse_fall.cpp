@@ -49,4 +49,17 @@ void InverseModel::add_fall(std::size_t run, const Modelled& from, const Modelle
   }
 }
 
+Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
+                          const Active& more) const {
+  Vector rows = Vector::Zero(rows_);
+  for (std::size_t run = 0; run < tracks_.size(); ++run) {
+    Contribution alone;
+    more.hypothesis->apply({tracks_[run], axis, model.base[run]}, more.q, alone);
+    Contribution sum = model.extra[run];
+    add(sum, alone);
+    add_fall(run, {axis, model.extra[run], model.base[run]}, {axis, sum, model.base[run]}, residual, rows);
+  }
+  return rows;
+}
+
 }  // namespace feedtwin::tools::diagnosis

@@ -52,16 +52,6 @@ Vector meant(const Vector& at) {
   return out;
 }
 
-bool touches(const Contribution& c, const Equation& equation) {
-  const auto set = [](const Vector& v) { return v.size() > 0; };
-  if (equation.slip) return set(c.slip_m);
-  if (equation.power) return set(c.power_W) || set(c.drive_N);
-  const bool own = (equation.motor && (set(c.motor_N) || set(c.drive_N))) || (equation.screw && set(c.screw_N)) ||
-                   (equation.guide && (set(c.guide_N) || c.table_mass_kg != 0.0));
-  const bool torque = equation.motor != equation.screw, force = equation.screw != equation.guide;
-  return own || (torque && set(c.torque_sensor_N)) || (force && set(c.force_sensor_N));
-}
-
 }  // namespace
 
 InverseModel::InverseModel(std::vector<Track> tracks, const plant::AxisParameters& nominal)
@@ -203,28 +193,6 @@ Vector InverseModel::residual(const plant::AxisParameters& axis, const Prepared&
     const double by = which == Rows::weighted ? weight(equation, axis, extra) : 1.0;
     store(s, by * raw_residual(equation, s.run, axis, extra, model.base[s.run]), rows);
   });
-  return rows;
-}
-
-Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
-                          const Active& more) const {
-  Vector rows = Vector::Zero(rows_);
-  for (std::size_t run = 0; run < tracks_.size(); ++run) {
-    const View view{tracks_[run], axis, model.base[run]};
-    Contribution alone;
-    more.hypothesis->apply(view, more.q, alone);
-    const bool any = std::ranges::any_of(equations_, [&alone](const Equation& e) { return touches(alone, e); });
-    if (!any) continue;
-    Contribution sum = model.extra[run];
-    add(sum, alone);
-    for (const auto& segment : segments_) {
-      const auto& equation = equations_[segment.equation];
-      if (segment.run != run || segment.size == 0 || !touches(alone, equation)) continue;
-      store(segment, weight(equation, axis, sum) * raw_residual(equation, run, axis, sum, model.base[run]), rows);
-      auto part = rows.segment(segment.start, segment.size);
-      part = residual.segment(segment.start, segment.size) - part;
-    }
-  }
   return rows;
 }
 

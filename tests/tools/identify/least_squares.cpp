@@ -31,18 +31,35 @@ MatrixXd random_matrix(std::mt19937_64& random, Index rows, Index columns) {
   return m;
 }
 
+/// Six unknowns that forty rows are linear in: ax - b.
+struct LinearProblem {
+  MatrixXd a;
+  VectorXd b;
+  LeastSquaresProblem problem = within(6, -100.0, 100.0);
+  int batches = 0;
+
+  explicit LinearProblem(std::mt19937_64& random) : a(random_matrix(random, 40, 6)), b(random_matrix(random, 40, 1)) {
+    problem.residuals = [this](const MatrixXd& points) { return ++batches, MatrixXd((a * points).colwise() - b); };
+  }
+  LinearProblem(const LinearProblem&) = delete;
+  LinearProblem& operator=(const LinearProblem&) = delete;
+
+  /// The least that the first so many unknowns leave.
+  [[nodiscard]] double least_cost(Index unknowns) const {
+    const auto columns = a.leftCols(unknowns);
+    return 0.5 * (columns * columns.colPivHouseholderQr().solve(b) - b).squaredNorm();
+  }
+};
+
 TEST(LeastSquares, SolvesLinearProblemsAsQrDoes) {
   std::mt19937_64 random(71);
   for (int round = 0; round < 30; ++round) {
-    const MatrixXd a = random_matrix(random, 40, 6);
-    const VectorXd b = random_matrix(random, 40, 1);
-    auto problem = within(6, -100.0, 100.0);
-    problem.residuals = [&](const MatrixXd& points) { return MatrixXd((a * points).colwise() - b); };
-    const auto found = solve_least_squares(problem);
-    const VectorXd right = a.colPivHouseholderQr().solve(b);
+    const LinearProblem linear(random);
+    const auto found = solve_least_squares(linear.problem);
+    const VectorXd right = linear.a.colPivHouseholderQr().solve(linear.b);
     EXPECT_TRUE(found.converged) << round;
     EXPECT_LT((found.point - right).norm(), 1e-5 * (1.0 + right.norm())) << round;
-    EXPECT_LT((found.jacobian - a).norm(), 1e-6 * a.norm()) << round;
+    EXPECT_LT((found.jacobian - linear.a).norm(), 1e-6 * linear.a.norm()) << round;
   }
 }
 
@@ -187,21 +204,15 @@ TEST(LeastSquares, EndsWhereAStepIsWorthLessThanAsked) {
 TEST(LeastSquares, TakesNoStepWhereWhatIsAskedPromisesTooLittle) {
   std::mt19937_64 random(76);
   for (int round = 0; round < 20; ++round) {
-    const MatrixXd a = random_matrix(random, 40, 6);
-    const VectorXd b = random_matrix(random, 40, 1);
-    auto problem = within(6, -100.0, 100.0);
-    int batches = 0;
-    problem.residuals = [&](const MatrixXd& points) { return ++batches, MatrixXd((a * points).colwise() - b); };
-    problem.kept_steps = 2;
-    problem.asked = 2;
-    const VectorXd with = a * a.colPivHouseholderQr().solve(b) - b,
-                   without = a.leftCols(4) * a.leftCols(4).colPivHouseholderQr().solve(b) - b;
-    const double worth = 0.5 * (without.squaredNorm() - with.squaredNorm());
-    problem.least_promise = 1.01 * worth;
-    EXPECT_EQ(solve_least_squares(problem).point, problem.start) << round;
-    EXPECT_EQ(batches, 1) << round;
-    problem.least_promise = 0.99 * worth;
-    EXPECT_NEAR(solve_least_squares(problem).cost, 0.5 * with.squaredNorm(), 1e-6 * with.squaredNorm()) << round;
+    LinearProblem linear(random);
+    const double worth = linear.least_cost(4) - linear.least_cost(6);
+    linear.problem.kept_steps = 2;
+    linear.problem.asked = 2;
+    linear.problem.least_promise = 1.01 * worth;
+    EXPECT_EQ(solve_least_squares(linear.problem).point, linear.problem.start) << round;
+    EXPECT_EQ(linear.batches, 1) << round;
+    linear.problem.least_promise = 0.99 * worth;
+    EXPECT_NEAR(solve_least_squares(linear.problem).cost, linear.least_cost(6), 2e-6 * linear.least_cost(6)) << round;
   }
 }
 
