@@ -195,8 +195,7 @@ class Diagnosing {
     tell_as_one_growth(result_, static_cast<double>(track.size) * track.sample_s);
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
       result_.effects.push_back(std::move(*difference));
-    if (auto payload = unknown_ ? std::nullopt : payload_in_mass(fitter_, fit_, covariance_))
-      result_.effects.push_back(std::move(*payload));
+    if (!unknown_) tell_load(result_, fitter_, fit_, covariance_);
     result_.recalibrated = recalibrated(fitter_, fit_, covariance_);
     if (motor_presliding_m(data_.axis) == 0.0) result_.motor_presliding_m = motor_presliding_m(fit_.model.axis);
     auto ways = ways_of(fit_.model);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/sentence.h"
@@ -37,6 +39,29 @@ std::optional<NamedEffect> payload_in_mass(const Fitter& fitter, const Fit& fit,
   effect.intervals = {{0.0, longest_s}};
   effect.sentence = sentence_of(effect) + " The recalibrated mass of the table holds it.";
   return effect;
+}
+
+bool numbers_of_another_lead(const Fitter& fitter, const plant::AxisParameters& axis, bool lead_mended) {
+  constexpr double far_tolerances = 4.0;
+  if (!lead_mended) return false;
+  std::vector<double> off;
+  const Vector deviations = fitter.deviations(axis);
+  for (std::size_t i = 0; i < fitter.base().size(); ++i)
+    if (fitter.base()[i].entry->key.starts_with("ball_screw.coulomb"))
+      off.push_back(std::abs(deviations[static_cast<Index>(i)]));
+  return !off.empty() && std::ranges::min(off) > far_tolerances;
+}
+
+void tell_load(Diagnosis& told, const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
+  const auto lead = std::ranges::find(told.setup, "wrong_lead", &SetupFault::id);
+  if (numbers_of_another_lead(fitter, fit.model.axis, lead != told.setup.end())) {
+    std::erase_if(told.effects, [](const NamedEffect& one) { return one.hypothesis == &hypothesis("payload"); });
+    lead->sentence +=
+        " The file's friction is off with it, as if it had been fitted under that lead: no load is told from the "
+        "table's mass.";
+  } else if (auto payload = payload_in_mass(fitter, fit, covariance)) {
+    told.effects.push_back(std::move(*payload));
+  }
 }
 
 }  // namespace feedtwin::tools::diagnosis

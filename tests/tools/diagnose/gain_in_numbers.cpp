@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "tests/support/made_case.h"
@@ -65,6 +66,15 @@ TEST_F(OfTheTable, NumbersOffEachByItselfHaveNone) {
   for (int i = 0; i < 20'000; ++i) {
     const auto axis = with_table(plant::source_axis(), [&] { return 1.0 + (dice() % 2 == 0 ? 1.0 : -1.0) * off(dice); });
     ASSERT_FALSE(shift(axis).of_all_together) << i;
+  }
+}
+
+TEST(CommonShift, StandsForAGainOfItsSizeAndNoOther) {
+  for (const double factor : {0.7, 0.87, 1.14, 1.4}) {
+    const CommonShift shift{.factor = factor, .fall = 1.0, .of_all_together = true};
+    for (const double power : {0.6, 1.0, 1.5}) EXPECT_TRUE(shift.stands_for(std::pow(factor, power))) << factor << power;
+    for (const double power : {-1.0, 0.0, 0.3, 2.5})
+      EXPECT_FALSE(shift.stands_for(std::pow(factor, power))) << factor << power;
   }
 }
 

@@ -13,14 +13,18 @@ namespace {
 
 using namespace tools::diagnosis;
 
+tools::Recording run_of(const plant::AxisParameters& truth, bool sensors) {
+  tests::MadeRun made{
+      .motion = "sine", .duration_s = 6.0, .sensors = sensors, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+  made.settings.speed_m_per_s = 0.15, made.settings.amplitude_m = 0.01;
+  return tests::make_recording(truth, made);
+}
+
 /// What is told of a table that is so much heavier than the source's axis has it.
 std::optional<NamedEffect> told(double factor, bool sensors) {
   auto truth = plant::source_axis();
   truth.guide_mass_kg *= factor;
-  tests::MadeRun made{
-      .motion = "sine", .duration_s = 6.0, .sensors = sensors, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
-  made.settings.speed_m_per_s = 0.15, made.settings.amplitude_m = 0.01;
-  const std::vector runs{tests::make_recording(truth, made)};
+  const std::vector runs{run_of(truth, sensors)};
   const tests::FittedRuns fitted(runs, plant::source_axis());
   return payload_in_mass(fitted.fitter, fitted.fit, robust_covariance(fitted.model, fitted.fit));
 }
@@ -44,6 +48,33 @@ TEST(PayloadInMass, ANumberThatIsOffAsNumbersAreIsNone) {
 
 TEST(PayloadInMass, WhatTheRecordingDoesNotSayIsNotTold) {
   EXPECT_FALSE(told(1.6, false).has_value()) << "less than a tenth of what the motor feels by itself";
+}
+
+/// Of a table that is twice as heavy as the file has it, on a screw whose friction is so many times the file's.
+Diagnosis told_beside(std::vector<SetupFault> setup, double friction) {
+  auto truth = plant::source_axis(), nominal = truth;
+  truth.guide_mass_kg *= 2.0;
+  for (auto* number : {&nominal.ball_screw.coulomb_N, &nominal.ball_screw.static_N})
+    number->pos /= friction, number->neg /= friction;
+  const std::vector runs{run_of(truth, true)};
+  const tests::FittedRuns fitted(runs, nominal);
+  Diagnosis told;
+  told.setup = std::move(setup);
+  tell_load(told, fitted.fitter, fitted.fit, robust_covariance(fitted.model, fitted.fit));
+  return told;
+}
+
+TEST(Load, IsNotToldByAFileWhoseNumbersAreThoseOfAWrongLead) {
+  const SetupFault lead{
+      .id = "wrong_lead", .component = {}, .channel = {}, .sentence = "the lead is wrong.", .parameters = {}};
+  const SetupFault sign{.id = "wrong_sign", .component = {}, .channel = {}, .sentence = "in reverse.", .parameters = {}};
+  const auto fitted_under_it = told_beside({lead}, 0.4);
+  EXPECT_TRUE(fitted_under_it.effects.empty());
+  EXPECT_NE(fitted_under_it.setup.front().sentence, lead.sentence) << "why there is none is told";
+  for (const auto& told : {told_beside({lead}, 1.1), told_beside({sign}, 0.4), told_beside({}, 0.4)}) {
+    ASSERT_EQ(told.effects.size(), 1U);
+    EXPECT_EQ(told.effects.front().hypothesis->id, "payload");
+  }
 }
 
 }  // namespace

@@ -66,6 +66,11 @@ CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis
           .of_all_together = std::abs(mean) > tolerance && mass / mean > least_share_of_mass && left < most_left * count};
 }
 
+bool CommonShift::stands_for(double gain) const {
+  const double part = std::log(gain) / std::log(factor);
+  return part > 0.5 && part < 2.0;
+}
+
 plant::AxisParameters with_table_less(plant::AxisParameters axis, double times) {
   const double k = per_lead(axis.axis), less = 1.0 - 1.0 / times;
   const auto give = [&](double& table, double& screw) {
@@ -101,7 +106,8 @@ std::optional<Ruling> ask_for_gain_in_numbers(const ForwardModel& forward, const
       "the table's numbers are {:.2f} times the file's together; closed loop, with {}: {:+.0f} nats, {:.1f} squared "
       "tolerances nearer to nominal",
       shift.factor, in_words(gain, with.model.axis), with.value - now.value, fall));
-  if (with.value < now.value || fall < 0.0 || !can_be_named(gain, with.model.axis)) return settled;
+  const bool tells = with.value >= now.value && fall >= 0.0 && shift.stands_for(1.0 + gain.q[1]);
+  if (!tells || !can_be_named(gain, with.model.axis)) return settled;
   found.found.push_back(told(gain, shift, fall / (fall + fitter.squared_tolerances(with.model.axis))));
   fit = with.fit;
   return with;

@@ -16,6 +16,9 @@ struct CommonShift {
   double factor = 1.0;           ///< of the axis file's, their geometric mean
   double fall = 0.0;             ///< of the squared deviations from the file, in tolerances, without it
   bool of_all_together = false;  ///< beyond a tolerance, the mass as well, and without it they are as the file has them
+
+  /// May it come of a sensor with this gain? Polished, a gain may end far from it, for what else the model simplifies.
+  [[nodiscard]] bool stands_for(double gain) const;
 };
 [[nodiscard]] CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis);
 
@@ -23,7 +26,8 @@ struct CommonShift {
 /// but for the damping of the bristles, of which the screw may have none to give.
 [[nodiscard]] plant::AxisParameters with_table_less(plant::AxisParameters axis, double times);
 
-/// Names the gain where the numbers have such a shift and the runs are as likely with numbers near nominal and a gain.
+/// Names the gain where the numbers have such a shift and the runs are as likely with numbers near nominal and a gain of
+/// about that size.
 /// @return the fit's model as the closed loop has it where the gain was added; otherwise as it was given
 std::optional<Ruling> ask_for_gain_in_numbers(const ForwardModel& forward, const Fitter& fitter, SearchResult& found,
                                               Fit& fit, std::optional<Ruling> settled,
