@@ -107,11 +107,13 @@ Step best_of(const LeastSquaresProblem& problem, const LeastSquaresSolution& at,
   return {points.col(best), residuals.col(best), fall, factors[static_cast<std::size_t>(best)]};
 }
 
+constexpr double bold_damping = 0.3;  // to begin with along fresh slopes, where slopes are kept
+
 /// With fresh slopes shorter steps are tried as long as none goes down; `damping` is what it took.
 Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, bool fresh, double& damping) {
   constexpr double strongest_damping = 1e6;  // a step of a millionth of Newton's: there is no way down
   constexpr std::array many{0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4};
-  constexpr std::array bold{0.0, 30.0}, shorter{1.0, 1e3};  // where slopes are kept a step costs as they do
+  constexpr std::array bold{0.0, 1.0}, shorter{30.0, 1e3};  // where slopes are kept a step costs as they do
   const MatrixXd normal = gram(at.jacobian);
   const VectorXd gradient = at.jacobian.transpose() * at.residuals;
   for (;;) {
@@ -148,26 +150,33 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
   const bool keeps = problem.kept_steps > 0;
   LeastSquaresSolution at;
   at.point = problem.start.cwiseMax(problem.lowest).cwiseMin(problem.highest);
-  double damping = 1e-2;
+  constexpr double hopeless = 0.05;  // of what is left
+  double behind = problem.behind;
+  double damping = keeps ? bold_damping : 1e-2;
+  const double least_factor = keeps ? 0.1 : 1e-3;
   for (; at.iterations < problem.most_iterations; ++at.iterations) {
     linearise(problem, at);
     if (at.iterations == 0 && problem.asked > 0 && promise_of_asked(problem, at) < problem.least_promise) {
       at.converged = true;
       return at;
     }
+    const double before = at.cost;
+    if (keeps) damping = std::min(damping, bold_damping);  // how short steps had to be says nothing of these slopes
     for (int kept = 0; kept <= problem.kept_steps; ++kept) {
       const double least = std::max(problem.least_fall, problem.cost_tolerance * at.cost);
       const Step step = best_step(problem, at, kept == 0, damping);
       if (kept == 0) at.converged = !(step.fall > least);
       if (step.fall <= 0.0) break;
       if (keeps) correct_slopes(at, step.point - at.point, step.residuals);
-      damping = std::clamp(damping * std::max(step.factor, 1e-3), 1e-3, 1e6);
+      damping = std::clamp(damping * std::max(step.factor, least_factor), 1e-3, 1e6);
       at.point = step.point;
       at.residuals = step.residuals;
       at.cost = cost_of(step.residuals);
       if (!(step.fall > least)) break;
     }
     if (at.converged) return at;  // a step of no consequence: the slopes stay
+    behind -= before - at.cost;
+    if (before - at.cost < hopeless * behind) return at;
   }
   if (!keeps) linearise(problem, at);
   return at;

@@ -168,6 +168,28 @@ TEST(LeastSquares, KeptStepsComeFurtherOnTheSameSlopes) {
   }
 }
 
+// What slopes at the start do not show bends the way: full steps go too far, again and again, and shorter ones must not be
+// taken for the end of it.
+TEST(LeastSquares, KeptStepsGoOnWhereFullOnesGoTooFar) {
+  std::mt19937_64 random(77);
+  for (int round = 0; round < 20; ++round) {
+    auto problem = within(20, -30.0, 30.0);
+    VectorXd scale(20);
+    for (Index i = 0; i < 20; ++i) scale[i] = std::pow(10.0, -0.1 * static_cast<double>(i));
+    problem.residuals = [a = MatrixXd(random_matrix(random, 60, 20) * scale.asDiagonal()),
+                         b = VectorXd(10.0 * random_matrix(random, 60, 1))](const MatrixXd& points) {
+      MatrixXd all(80, points.cols());
+      all << (a * points).colwise() - b, 0.2 * points.array().square().matrix();
+      return all;
+    };
+    problem.most_iterations = 200;
+    const auto full = solve_least_squares(problem);
+    problem.kept_steps = 2;
+    const auto kept = solve_least_squares(problem);
+    EXPECT_LT(kept.cost, 1.01 * full.cost) << round;
+  }
+}
+
 // On slopes that are never taken anew what each step saw must mend them, or four more steps arrive far less close.
 TEST(LeastSquares, EachKeptStepMendsTheSlopes) {
   std::mt19937_64 random(75);
@@ -213,6 +235,23 @@ TEST(LeastSquares, TakesNoStepWhereWhatIsAskedPromisesTooLittle) {
     EXPECT_EQ(linear.batches, 1) << round;
     linear.problem.least_promise = 0.99 * worth;
     EXPECT_NEAR(solve_least_squares(linear.problem).cost, linear.least_cost(6), 2e-6 * linear.least_cost(6)) << round;
+  }
+}
+
+// Compared with another that is far ahead: it ends where it can no more catch up, and goes on to the end where it can.
+TEST(LeastSquares, EndsWhereItIsHopelesslyBehind) {
+  std::mt19937_64 random(78);
+  for (int round = 0; round < 20; ++round) {
+    auto problem = stiffening_springs(random);
+    const auto alone = solve_least_squares(problem);
+    const double at_start = 0.5 * problem.residuals(problem.start).squaredNorm();
+    problem.behind = at_start - alone.cost;
+    EXPECT_EQ(solve_least_squares(problem).point, alone.point) << round << ": it ends level";
+    problem.behind = 2.0 * at_start;
+    const auto hopeless = solve_least_squares(problem);
+    EXPECT_LT(hopeless.iterations, alone.iterations) << round;
+    EXPECT_LT(hopeless.cost, alone.cost + 0.1 * problem.behind) << round << ": not before it got little";
+    EXPECT_FALSE(hopeless.converged) << round;
   }
 }
 

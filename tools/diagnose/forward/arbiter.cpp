@@ -31,7 +31,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, refit_iterations);
     if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
-    Ruling rival = rule_beside(now, other, forward_, fitter_, SlopesOf::anew);
+    Ruling rival = rule_beside(now, other, forward_, fitter_, SlopesOf::anew, now.value);
     if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
     contest(now, rival, forward_, fitter_);
     if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;

@@ -54,7 +54,7 @@ class Asked {
  private:
   [[nodiscard]] Ruling without_it(const SearchResult& found, const Fit& fit, const Ruling& settled, std::size_t e) const {
     const Fit less = fitter_.fit(without(fit.model, e), found.whitening, refit_iterations);
-    Ruling rest = rule_beside(settled, less, forward_, fitter_, SlopesOf::before);
+    Ruling rest = rule_beside(settled, less, forward_, fitter_, SlopesOf::before, settled.value);
     if (settled.value - rest.value < in_question_nats) rest = rule_again(rest, forward_, fitter_, SlopesOf::anew);
     return rest;
   }

@@ -24,6 +24,7 @@ struct PolishSettings {
   std::size_t known_effects = 0;     ///< and of the numbers of so many effects, the first
   bool known_to_begin_with = false;  ///< in the first of several rounds only
   Slopes* learned = nullptr;         ///< takes the slopes that this polish sees, the last of them
+  double behind_nats = 0.0;          ///< another model is ahead by so many: see LeastSquaresProblem
   double least_promise_nats = 0.0;   ///< of the last effect, by straight slopes: where it is less, the start stays as it is
 };
 

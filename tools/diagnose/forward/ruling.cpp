@@ -46,31 +46,38 @@ Ruling judged(Ruling ruling, const Fitter& fitter) {
   return ruling;
 }
 
-/// @param known slopes of an explanation beside it; none: seen anew
-/// @param of_effects are those of the effects' numbers known too?
-/// @param least_promise_nats of the last effect: where slopes promise less, nothing is polished
-Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
-                int most_iterations, const SeenSlopes& known, bool of_effects = false, double least_promise_nats = 0.0) {
+/// How a model is polished.
+struct Way {
+  int most_iterations = further_iterations;
+  SeenSlopes known{};               ///< of an explanation beside it; none: seen anew
+  bool of_effects = false;          ///< are those of the effects' numbers known too?
+  double least_promise_nats = 0.0;  ///< of the last effect: where slopes promise less, nothing is polished
+  double ahead = none_ahead;        ///< value of the explanation that it is compared with
+};
+
+Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter, const Way& way) {
   PolishSettings settings;
   settings.rounds = 1;
-  settings.most_iterations = most_iterations;
+  settings.most_iterations = way.most_iterations;
   settings.least_fall_nats = 2.0;
   settings.coloured_from_start = true;
   settings.intervals = false;
   const auto effects = effects_of(start);
   std::shared_ptr<Slopes> learned;
-  if (!known.slopes) learned = std::make_shared<Slopes>(forward.runs().size());
-  settings.known = known.slopes.get();
-  if (of_effects) settings.known_effects = alike_to_begin_with(known.effects, effects);
+  if (!way.known.slopes) learned = std::make_shared<Slopes>(forward.runs().size());
+  settings.known = way.known.slopes.get();
+  if (way.of_effects) settings.known_effects = alike_to_begin_with(way.known.effects, effects);
   settings.learned = learned.get();
-  settings.least_promise_nats = least_promise_nats;
-  Ruling ruling{fit, start, likelihood(forward, extended(start)), 0.0, learned ? SeenSlopes{learned, effects} : known};
+  settings.least_promise_nats = way.least_promise_nats;
+  const auto seen = learned ? SeenSlopes{learned, effects} : way.known;
+  Ruling ruling = judged({fit, start, likelihood(forward, extended(start)), 0.0, seen}, fitter);
+  settings.behind_nats = std::max(0.0, way.ahead - ruling.value);
   const Polished better = polish(forward, fitter, start, settings);
   const auto found = better.moved ? likelihood(forward, extended(better.model)) : ruling.likelihood;
   if (found.total() > ruling.likelihood.total())
     ruling.model = better.model, ruling.likelihood = found;
   else
-    ruling.exhausted = learned && most_iterations == further_iterations;
+    ruling.exhausted = learned && way.most_iterations == further_iterations;
   return judged(std::move(ruling), fitter);
 }
 
@@ -80,29 +87,29 @@ Ruling rule_as_it_is(const Fit& fit, const ForwardModel& forward, const Fitter& 
   return judged({fit, fit.model, likelihood(forward, extended(fit.model)), 0.0, {}}, fitter);
 }
 
-Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter) {
-  return polished(fit, fit.model, forward, fitter, first_iterations, {});
+Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter, double ahead) {
+  return polished(fit, fit.model, forward, fitter, {.most_iterations = first_iterations, .ahead = ahead});
 }
 
 Ruling rule_again(const Ruling& before, const ForwardModel& forward, const Fitter& fitter, SlopesOf slopes) {
   if (before.exhausted && slopes == SlopesOf::anew) return before;
-  return polished(before.fit, before.model, forward, fitter, further_iterations,
-                  slopes == SlopesOf::before ? before.seen : SeenSlopes{});
+  return polished(before.fit, before.model, forward, fitter,
+                  {.known = slopes == SlopesOf::before ? before.seen : SeenSlopes{}});
 }
 
-Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
-                   SlopesOf slopes) {
+Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter, SlopesOf slopes,
+                   double ahead) {
   const Candidate beside = with_numbers_of(before.model, fit.model);
   const double own = likelihood(forward, extended(fit.model)).total();
   const bool better = likelihood(forward, extended(beside)).total() > own;
-  return polished(fit, better ? beside : fit.model, forward, fitter, further_iterations,
-                  slopes == SlopesOf::before ? before.seen : SeenSlopes{});
+  return polished(fit, better ? beside : fit.model, forward, fitter,
+                  {.known = slopes == SlopesOf::before ? before.seen : SeenSlopes{}, .ahead = ahead});
 }
 
 Ruling glance_at_one_more(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
                           double least_promise_nats) {
-  return polished(fit, with_numbers_of(before.model, fit.model), forward, fitter, further_iterations, before.seen, true,
-                  least_promise_nats);
+  return polished(fit, with_numbers_of(before.model, fit.model), forward, fitter,
+                  {.known = before.seen, .of_effects = true, .least_promise_nats = least_promise_nats});
 }
 
 Ruling rule_with_one_more(const Ruling& before, Fit fit, std::size_t more, const ForwardModel& forward,
@@ -134,7 +141,7 @@ void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitt
     const Candidate beside = with_numbers_of(ahead.model, behind.model);
     const bool better_beside = likelihood(forward, extended(beside)).total() > behind.likelihood.total();
     if (!better_beside && ahead.value - behind.value > hopeless_nats) return;
-    const auto from_the_other = [&] { return polished(behind.fit, beside, forward, fitter, further_iterations, {}); };
+    const auto from_the_other = [&] { return polished(behind.fit, beside, forward, fitter, {}); };
     const auto from_its_own = [&] { return rule_again(behind, forward, fitter, SlopesOf::anew); };
     Ruling further = better_beside ? from_the_other() : from_its_own();
     if (further.value < behind.value + of_consequence_nats) {

@@ -2,6 +2,7 @@
 // What the closed loop makes of an explanation: its numbers as polished there, and how likely the runs are under it. Numbers
 // that would do for two explanations must not decide between them, so each also starts from the other's.
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -34,7 +35,11 @@ struct Ruling {
   bool exhausted = false;
 };
 
-[[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
+/// Of an explanation that is compared with none.
+inline constexpr double none_ahead = -std::numeric_limits<double>::infinity();
+
+/// @param ahead value of the explanation that it is compared with: one that is hopelessly behind is polished no further
+[[nodiscard]] Ruling rule(const Fit& fit, const ForwardModel& forward, const Fitter& fitter, double ahead = none_ahead);
 /// Not polished.
 [[nodiscard]] Ruling rule_as_it_is(const Fit& fit, const ForwardModel& forward, const Fitter& fitter);
 /// Slopes of the nominal model's numbers for a polish: those of the ruling before it cost nothing, and serve where the
@@ -44,7 +49,7 @@ enum class SlopesOf { before, anew };
 [[nodiscard]] Ruling rule_again(const Ruling& before, const ForwardModel& forward, const Fitter& fitter, SlopesOf slopes);
 /// Another explanation, from its own numbers or from those of one that was polished before, whichever are likelier.
 [[nodiscard]] Ruling rule_beside(const Ruling& before, const Fit& fit, const ForwardModel& forward, const Fitter& fitter,
-                                 SlopesOf slopes);
+                                 SlopesOf slopes, double ahead = none_ahead);
 /// One effect more than before, its last, from the numbers before and along all slopes that were seen then: what it may
 /// bring.
 /// @param least_promise_nats where straight slopes promise less of it, no step is simulated
