@@ -161,7 +161,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
       return at;
     }
     const double before = at.cost;
-    if (keeps) damping = std::min(damping, bold_damping);  // how short steps had to be says nothing of these slopes
+    if (keeps) damping = bold_damping;  // how short steps had to be says nothing of these slopes
     for (int kept = 0; kept <= problem.kept_steps; ++kept) {
       const double least = std::max(problem.least_fall, problem.cost_tolerance * at.cost);
       const Step step = best_step(problem, at, kept == 0, damping);
