@@ -41,6 +41,15 @@ TEST(Telling, NumbersThatComeFarNearerToTheFileTellBesideAChannelInDoubt) {
   EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answer(267.0, 10.1, 1.4)), Telling::nothing) << "no number takes it up";
 }
 
+TEST(Telling, AChannelThatComesHalfOfTheWayTellsWhereTheRunsAreSure) {
+  const auto& dwell = hypothesis("dwell_breakaway");
+  EXPECT_EQ(telling_of(dwell, answered(1404.0, 9.0, 11.0, 1.40, 0.46)), Telling::by_channel);
+  EXPECT_EQ(telling_of(dwell, answered(1404.0, 5.0, 11.0, 1.40, 0.46)), Telling::nothing);
+  EXPECT_EQ(telling_of(dwell, answered(900.0, 9.0, 11.0, 1.40, 0.46)), Telling::nothing);
+  EXPECT_EQ(telling_of(dwell, answered(1404.0, 9.0, 11.0, 1.25, 0.46)), Telling::nothing);
+  EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(1404.0, 9.0, -1.0, 1.40, 0.46)), Telling::nothing);
+}
+
 TEST(Telling, NatsAloneTellOnlyWhatMayBeToldSo) {
   EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answered(3000.0, 6.3, 0.0)), Telling::nothing);
   EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(90.0, 6.3, 0.0)), Telling::nothing);
