@@ -50,6 +50,15 @@ TEST(Telling, AChannelThatComesHalfOfTheWayTellsWhereTheRunsAreSure) {
   EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(1404.0, 9.0, -1.0, 1.40, 0.46)), Telling::nothing);
 }
 
+TEST(Telling, AChannelThatComesAllOfItsWayTellsThoughStretchesDisagree) {
+  const auto& gravity = hypothesis("gravity");
+  EXPECT_EQ(telling_of(gravity, answered(448.0, 0.8, -2.0, 11.8, 0.97)), Telling::by_channel);
+  EXPECT_EQ(telling_of(gravity, answered(448.0, -0.8, -2.0, 11.8, 0.97)), Telling::nothing);
+  EXPECT_EQ(telling_of(gravity, answered(448.0, 0.8, -2.0, 11.8, 0.8)), Telling::nothing);
+  EXPECT_EQ(telling_of(gravity, answered(448.0, 0.8, -2.0, 3.0, 0.97)), Telling::nothing);
+  EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(448.0, 0.8, 2.0, 11.8, 0.97)), Telling::nothing);
+}
+
 TEST(Telling, NatsAloneTellOnlyWhatMayBeToldSo) {
   EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answered(3000.0, 6.3, 0.0)), Telling::nothing);
   EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(90.0, 6.3, 0.0)), Telling::nothing);

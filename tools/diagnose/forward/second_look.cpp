@@ -39,8 +39,11 @@ Nrmse lesser(Nrmse one, const Nrmse& other) {
   return one;
 }
 
-/// Of as many deviations in any of the hypotheses: what the closed loop names, it vouches for.
-double chance_of(double deviations) {
+/// Of as many deviations in any of the hypotheses: what the closed loop names, it vouches for. Where a channel comes all of
+/// its way the likelihood ratio alone tells (Wilks 1938): stretches that stick otherwise say nothing of that.
+double chance_of(const Comparison& likelier, bool all_of_its_way) {
+  const double by_ratio = all_of_its_way ? std::sqrt(2.0 * std::max(0.0, likelier.nats)) : 0.0;
+  const double deviations = std::max(likelier.deviations, by_ratio);
   return std::min(1.0, 0.5 * std::erfc(deviations / std::numbers::sqrt2) * static_cast<double>(hypotheses().size()));
 }
 
@@ -73,16 +76,17 @@ class SecondLook {
     const auto rivals = settled_against_others(answers, best);
     if (by_runs_alone && !runs_may_tell(best->ruling.model.effects.back())) return false;
     const double gain = fit.cost - best->ruling.fit.cost;
-    found.found.push_back({.effect = best->ruling.model.effects.back(),
-                           .gain = gain,
-                           .share = std::clamp(gain / std::max(1.0, best->score->touched), 0.0, 1.0),
-                           .strength = 0.0,
-                           .p_false_alarm = chance_of(compared(best->ruling.likelihood, settled->likelihood).deviations),
-                           .rivals = rivals,
-                           .held_everywhere = false,
-                           .by_closed_loop = true,
-                           .by_runs_alone = by_runs_alone,
-                           .error_ratio = best->error_ratio});
+    found.found.push_back(
+        {.effect = best->ruling.model.effects.back(),
+         .gain = gain,
+         .share = std::clamp(gain / std::max(1.0, best->score->touched), 0.0, 1.0),
+         .strength = 0.0,
+         .p_false_alarm = chance_of(compared(best->ruling.likelihood, settled->likelihood), best->all_of_its_way),
+         .rivals = rivals,
+         .held_everywhere = false,
+         .by_closed_loop = true,
+         .by_runs_alone = by_runs_alone,
+         .error_ratio = best->error_ratio});
     fit = best->ruling.fit;
     settled = std::move(best->ruling);
     return true;
@@ -100,9 +104,10 @@ class SecondLook {
   struct Answer {
     const Score* score;
     Ruling ruling;
-    bool enough = false;         ///< to be named
-    bool by_runs_alone = false;  ///< no channel says so
-    double error_ratio = 1.0;    ///< of the channel that says so most
+    bool enough = false;          ///< to be named
+    bool by_runs_alone = false;   ///< no channel says so
+    double error_ratio = 1.0;     ///< of the channel that says so most
+    bool all_of_its_way = false;  ///< comes that channel
   };
 
   static bool enough(const Answer& answer) { return answer.enough; }
@@ -216,12 +221,14 @@ class SecondLook {
                     "nominal, {} {:.2f} times as close, {:.0f} %",
                     in_words(one.model.effects.back(), one.model.axis), nats, deviations, nearer_nominal,
                     seen.channel.empty() ? "no channel" : seen.channel, seen.ratio, 100.0 * seen.share));
-    const Telling telling = telling_of(h, {.nats = nats,
-                                           .deviations = deviations,
-                                           .nearer_nominal = nearer_nominal,
-                                           .ratio = seen.ratio,
-                                           .share = seen.share,
-                                           .slight = runs_may_tell(one.model.effects.back())});
+    const Answered answered{.nats = nats,
+                            .deviations = deviations,
+                            .nearer_nominal = nearer_nominal,
+                            .ratio = seen.ratio,
+                            .share = seen.share,
+                            .slight = runs_may_tell(one.model.effects.back())};
+    const Telling telling = telling_of(h, answered);
+    answer.all_of_its_way = all_of_its_way(answered);
     answer.by_runs_alone = telling == Telling::by_runs_alone;
     answer.error_ratio = seen.ratio;
     answer.enough = telling != Telling::nothing;

@@ -18,6 +18,8 @@ enum class Telling { nothing, by_channel, by_runs_alone };
 /// What a channel's coming closer must bring.
 inline constexpr double least_nats_by_channel = 100.0;
 
+/// Does a channel come nearly all of its way? That is no chance, though a stretch or two disagree.
+[[nodiscard]] bool all_of_its_way(const Answered& answered);
 [[nodiscard]] Telling telling_of(const Hypothesis& hypothesis, const Answered& answered);
 
 }  // namespace feedtwin::tools::diagnosis
