@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/sentence.h"
@@ -13,6 +12,17 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double least_tolerances = 5.0, least_deviations = 8.0;
+
+/// Is the screw's Coulomb friction, both ways, off by more than a data sheet's could be? Numbers that were fitted under a
+/// lead that is wrong are all off by what the lead is.
+bool friction_is_another(const Fitter& fitter, const plant::AxisParameters& axis) {
+  constexpr double far_tolerances = 4.0;
+  const Vector off = fitter.deviations(axis).cwiseAbs();
+  double least = 1e300;
+  for (std::size_t i = 0; i < fitter.base().size(); ++i)
+    if (fitter.base()[i].entry->key.starts_with("ball_screw.coulomb")) least = std::min(least, off[static_cast<Index>(i)]);
+  return least > far_tolerances;
+}
 
 }  // namespace
 
@@ -41,20 +51,9 @@ std::optional<NamedEffect> payload_in_mass(const Fitter& fitter, const Fit& fit,
   return effect;
 }
 
-bool numbers_of_another_lead(const Fitter& fitter, const plant::AxisParameters& axis, bool lead_mended) {
-  constexpr double far_tolerances = 4.0;
-  if (!lead_mended) return false;
-  std::vector<double> off;
-  const Vector deviations = fitter.deviations(axis);
-  for (std::size_t i = 0; i < fitter.base().size(); ++i)
-    if (fitter.base()[i].entry->key.starts_with("ball_screw.coulomb"))
-      off.push_back(std::abs(deviations[static_cast<Index>(i)]));
-  return !off.empty() && std::ranges::min(off) > far_tolerances;
-}
-
 void tell_load(Diagnosis& told, const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
   const auto lead = std::ranges::find(told.setup, "wrong_lead", &SetupFault::id);
-  if (numbers_of_another_lead(fitter, fit.model.axis, lead != told.setup.end())) {
+  if (lead != told.setup.end() && friction_is_another(fitter, fit.model.axis)) {
     std::erase_if(told.effects, [](const NamedEffect& one) { return one.hypothesis == &hypothesis("payload"); });
     lead->sentence +=
         " The file's friction is off with it, as if it had been fitted under that lead: no load is told from the "

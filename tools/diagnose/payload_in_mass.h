@@ -15,12 +15,8 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] std::optional<NamedEffect> payload_in_mass(const Fitter& fitter, const Fit& fit,
                                                          const Eigen::MatrixXd& covariance);
 
-/// Were the file's numbers fitted under the lead that it has wrong? Then all are off by what the lead is off, friction by
-/// more than a data sheet's could be, and a mass that is off says nothing of a load.
-/// @param lead_mended a wrong lead was found, and the axis has the right one
-[[nodiscard]] bool numbers_of_another_lead(const Fitter& fitter, const plant::AxisParameters& axis, bool lead_mended);
-
-/// Adds what the recalibrated table holds to what is told; takes a load from it whose size says nothing.
+/// Adds what the recalibrated table holds to what is told. Where the lead was wrong and the file's numbers were fitted under
+/// it, a mass that is off says nothing of a load: then none is told.
 void tell_load(Diagnosis& told, const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance);
 
 }  // namespace feedtwin::tools::diagnosis

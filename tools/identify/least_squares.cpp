@@ -107,8 +107,6 @@ Step best_of(const LeastSquaresProblem& problem, const LeastSquaresSolution& at,
   return {points.col(best), residuals.col(best), fall, factors[static_cast<std::size_t>(best)]};
 }
 
-constexpr double bold_damping = 0.3;  // to begin with along fresh slopes, where slopes are kept
-
 /// With fresh slopes shorter steps are tried as long as none goes down; `damping` is what it took.
 Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& at, bool fresh, double& damping) {
   constexpr double strongest_damping = 1e6;  // a step of a millionth of Newton's: there is no way down
@@ -152,8 +150,9 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
   at.point = problem.start.cwiseMax(problem.lowest).cwiseMin(problem.highest);
   constexpr double hopeless = 0.05;  // of what is left
   double behind = problem.behind;
-  double damping = keeps ? bold_damping : 1e-2;
+  constexpr double bold_damping = 0.3;
   const double least_factor = keeps ? 0.1 : 1e-3;
+  double damping = 1e-2;
   for (; at.iterations < problem.most_iterations; ++at.iterations) {
     linearise(problem, at);
     if (at.iterations == 0 && problem.asked > 0 && promise_of_asked(problem, at) < problem.least_promise) {

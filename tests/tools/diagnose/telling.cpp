@@ -72,6 +72,7 @@ TEST(Telling, WhatWouldBeTakenOutAgainIsNotTold) {
   EXPECT_EQ(telling_of(compensation, answered(2900.0, 6.8, 590.0, 4.77, 0.87)), Telling::nothing);
   EXPECT_EQ(telling_of(compensation, answered(3475.0, 11.7, 13.0, 94.2, 1.0)), Telling::by_channel);
   EXPECT_EQ(telling_of(hypothesis("friction_drift"), answered(130.0, 6.8, 0.0, 4.77, 0.87)), Telling::nothing);
+  EXPECT_EQ(telling_of(hypothesis("direction_dependent_friction"), answered(196.0, 6.8, 0.0, 4.77, 0.87)), Telling::nothing);
 }
 
 }  // namespace
