@@ -142,6 +142,12 @@ double promise_of_asked(const LeastSquaresProblem& problem, const LeastSquaresSo
   return promise(normal, gradient, all) - promise(normal, gradient, all - problem.asked);
 }
 
+/// How much likelier so many residuals of a size that is not known are with the lesser cost: half of what it falls by, as a
+/// share, for each; the fall itself where that is little and the residuals are in deviations.
+double nats(double before, double after, Index residuals) {
+  return after > 0.0 ? 0.5 * static_cast<double>(residuals) * std::log(before / after) : 0.0;
+}
+
 }  // namespace
 
 LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
@@ -149,7 +155,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
   LeastSquaresSolution at;
   at.point = problem.start.cwiseMax(problem.lowest).cwiseMin(problem.highest);
   constexpr double hopeless = 0.05;  // of what is left
-  double behind = problem.behind;
+  double behind_nats = problem.behind_nats;
   constexpr double bold_damping = 0.3;
   const double least_factor = keeps ? 0.1 : 1e-3;
   double damping = 1e-2;
@@ -174,8 +180,9 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
       if (!(step.fall > least)) break;
     }
     if (at.converged) return at;  // a step of no consequence: the slopes stay
-    behind -= before - at.cost;
-    if (before - at.cost < hopeless * behind) return at;
+    const double fall_nats = nats(before, at.cost, at.residuals.size());
+    behind_nats -= fall_nats;
+    if (fall_nats < hopeless * behind_nats) return at;
   }
   if (!keeps) linearise(problem, at);
   return at;

@@ -25,9 +25,9 @@ struct LeastSquaresProblem {
   /// beyond what the others would bring, the search ends where it starts.
   Eigen::Index asked = 0;
   double least_promise = 0.0;  ///< fall of the cost
-  /// By how much the start's cost is above another's. Where all steps along some slopes bring little of what is left of
+  /// By how much another is likelier than the start. Where all steps along some slopes bring little of what is left of
   /// that, the search ends: whoever asks has his answer.
-  double behind = 0.0;
+  double behind_nats = 0.0;
 };
 
 struct LeastSquaresSolution {

@@ -80,7 +80,7 @@ LeastSquaresProblem problem_for(const std::vector<FitParameter>& parameters, Res
   problem.least_fall = settings.least_fall;
   problem.asked = settings.asked;
   problem.least_promise = settings.least_promise;
-  problem.behind = settings.behind;
+  problem.behind_nats = settings.behind_nats;
   return problem;
 }
 
@@ -101,7 +101,7 @@ OutputErrorFit fit_output_error(const std::vector<ClosedLoopRun>& runs, const st
   constexpr double first_falls = 10.0;
   for (int round = 0; round < settings.rounds; ++round) {
     if (settings.round_begins) settings.round_begins(round);
-    if (round > 0) problem.asked = 0, problem.behind = 0.0;
+    if (round > 0) problem.asked = 0, problem.behind_nats = 0.0;
     problem.least_fall = settings.least_fall * (round + 1 < settings.rounds ? first_falls : 1.0);
     stack.weigh(problem.start, round > 0 || settings.coloured_from_start, round > 0);
     at = solve_least_squares(problem);

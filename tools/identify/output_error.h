@@ -53,7 +53,7 @@ struct OutputErrorSettings {
   double least_fall = 0.0;     ///< of the cost, in nats
   Eigen::Index asked = 0;      ///< in the first round; this and the next: see LeastSquaresProblem
   double least_promise = 0.0;  ///< in nats
-  double behind = 0.0;         ///< in nats, in the first round; see LeastSquaresProblem
+  double behind_nats = 0.0;    ///< in the first round; see LeastSquaresProblem
   std::function<void(int round)> round_begins = {};
   const Ranks* ranks = nullptr;                           ///< who shares the simulations; nullptr: nobody
   std::function<void(const std::string& line)> progress;  ///< told of every round; may be empty

@@ -96,6 +96,19 @@ TEST(Ruling, OneEffectMoreThatStartsAstrayStartsFromNoneInstead) {
   EXPECT_NEAR(found.model.effects[0].q[0], 0.01, 1e-3);
 }
 
+TEST(Ruling, WhatIsHopelesslyBehindIsPolishedNoFurtherAndWhatIsNotToTheEnd) {
+  const Cogged made;
+  Candidate off{made.data.axis, {{&hypothesis("cogging"), {0.007, 0.0, 8.0}}}};
+  for (auto* friction_N : {&off.axis.ball_screw.coulomb_N, &off.axis.ball_screw.static_N})
+    friction_N->pos *= 1.5, friction_N->neg *= 1.5;
+  const Fit fit = made.fitter.linearised(off, made.whitening);
+  const Ruling alone = rule(fit, made.forward, made.fitter);
+  EXPECT_EQ(rule(fit, made.forward, made.fitter, alone.value).value, alone.value) << "it ends level";
+  const Ruling behind = rule(fit, made.forward, made.fitter, alone.value + 1e7);
+  EXPECT_LT(behind.value, alone.value - 1.0);
+  EXPECT_GT(behind.value, rule_as_it_is(fit, made.forward, made.fitter).value) << "not before a step was taken";
+}
+
 TEST(Confirm, WhatTheClosedLoopItselfHasNamedIsNotAsked) {
   const Cogged made;
   for (const bool by_closed_loop : {false, true}) {

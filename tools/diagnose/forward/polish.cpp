@@ -34,7 +34,7 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   output_error.intervals = settings.intervals;
   output_error.kept_steps = 2;
   output_error.least_fall = settings.least_fall_nats;
-  output_error.behind = settings.behind_nats;
+  output_error.behind_nats = settings.behind_nats;
   if (settings.known_to_begin_with) output_error.round_begins = [&](int round) { known = known && round == 0; };
   if (settings.least_promise_nats > 0.0) {
     output_error.asked = unknowns.count(start.effects.size()) - unknowns.count(start.effects.size() - 1);

@@ -10,6 +10,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double nats_per_parameter = 4.0;
+constexpr double hopeless_nats = 1500.0;  // behind another: who is nearer is polished to the end
 /// Of polishing: the first explanation once and well, since the last polish goes on from there; others from good numbers.
 constexpr int first_iterations = 8, further_iterations = 3;
 
@@ -71,7 +72,7 @@ Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forw
   settings.least_promise_nats = way.least_promise_nats;
   const auto seen = learned ? SeenSlopes{learned, effects} : way.known;
   Ruling ruling = judged({fit, start, likelihood(forward, extended(start)), 0.0, seen}, fitter);
-  settings.behind_nats = std::max(0.0, way.ahead - ruling.value);
+  settings.behind_nats = std::max(0.0, way.ahead - ruling.value - hopeless_nats);
   const Polished better = polish(forward, fitter, start, settings);
   const auto found = better.moved ? likelihood(forward, extended(better.model)) : ruling.likelihood;
   if (found.total() > ruling.likelihood.total())
@@ -135,7 +136,6 @@ Polished polish_settled(const std::optional<Ruling>& settled, const Candidate& o
 
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter) {
   constexpr int most_rounds = 2;
-  constexpr double hopeless_nats = 1500.0;
   for (int round = 0; round < most_rounds; ++round) {
     Ruling &behind = one.value < other.value ? one : other, &ahead = one.value < other.value ? other : one;
     const Candidate beside = with_numbers_of(ahead.model, behind.model);
