@@ -68,7 +68,7 @@ std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& f
   const auto [start, nats] = on_likeliest_screw(forward, fitter, found.whitening, punctual);
   if (nats < clearly_nats) return std::nullopt;
   Ruling yielding = rule(fitter.linearised(start, found.whitening), forward, fitter);
-  const Ruling rigid = rule(fit, forward, fitter, yielding.value);
+  Ruling rigid = rule(fit, forward, fitter, yielding.value);
   const auto difference = compared(yielding.likelihood, rigid.likelihood);
   const double better = yielding.value - rigid.value;
   const double stiffness = 1.0 / yielding.model.effects.back().q.front();
