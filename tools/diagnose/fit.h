@@ -16,6 +16,8 @@ namespace feedtwin::tools::diagnosis {
 struct Candidate {
   plant::AxisParameters axis;
   std::vector<Active> effects;
+
+  bool operator==(const Candidate&) const = default;
 };
 
 [[nodiscard]] Candidate without(const Candidate& model, std::size_t effect);

@@ -183,6 +183,8 @@ struct Hypothesis {
 struct Active {
   const Hypothesis* hypothesis = nullptr;
   std::vector<double> q;
+
+  bool operator==(const Active&) const = default;
 };
 
 /// Is the fitted value physically possible?

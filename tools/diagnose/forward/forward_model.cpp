@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "tools/diagnose/forward/rulings_before.h"
 #include "tools/identify/channel_residuals.h"
 #include "tools/identify/whitening.h"
 #include "tools/median.h"
@@ -84,7 +85,8 @@ Recording as_recorded(const ClosedLoopRun& run, const Simulated& simulated, doub
 
 }  // namespace
 
-ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case& data) : data_(&data) {
+ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case& data)
+    : data_(&data), before_(std::make_shared<RulingsBefore>()) {
   runs_.reserve(recordings.size());
   for (const auto& recording : recordings) runs_.emplace_back(recording, data.axis, data.controller, following);
 }

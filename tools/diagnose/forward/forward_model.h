@@ -2,6 +2,7 @@
 // The second engine: runs simulated forward in closed loop by the plant that the server runs, with the case's controller or
 // a stand-in that tracks the recorded motion. The torque command, the sensors and the power are what tells.
 
+#include <memory>
 #include <vector>
 
 #include "tools/diagnose/figures.h"
@@ -9,6 +10,8 @@
 #include "tools/identify/closed_loop.h"
 
 namespace feedtwin::tools::diagnosis {
+
+class RulingsBefore;
 
 class ForwardModel {
  public:
@@ -32,6 +35,9 @@ class ForwardModel {
   /// sensors' own white noise. From simulating what it would have recorded.
   [[nodiscard]] Nrmse noise_floor(const AxisByRun& axis) const;
 
+  /// What was ruled on these runs before.
+  [[nodiscard]] RulingsBefore& before() const { return *before_; }
+
  private:
   [[nodiscard]] Simulated simulated(const ClosedLoopRun& run, const plant::AxisParameters& axis) const;
   void simulate_alike(const ClosedLoopRun& run, const std::vector<plant::AxisParameters>& axes,
@@ -40,6 +46,7 @@ class ForwardModel {
   const Case* data_;
   double meter_share_ = 0.0;
   std::vector<ClosedLoopRun> runs_;
+  std::shared_ptr<RulingsBefore> before_;
 };
 
 }  // namespace feedtwin::tools::diagnosis

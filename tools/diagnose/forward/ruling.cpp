@@ -5,6 +5,7 @@
 
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/polish.h"
+#include "tools/diagnose/forward/rulings_before.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -47,16 +48,8 @@ Ruling judged(Ruling ruling, const Fitter& fitter) {
   return ruling;
 }
 
-/// How a model is polished.
-struct Way {
-  int most_iterations = further_iterations;
-  SeenSlopes known{};               ///< of an explanation beside it; none: seen anew
-  bool of_effects = false;          ///< are those of the effects' numbers known too?
-  double least_promise_nats = 0.0;  ///< of the last effect: where slopes promise less, nothing is polished
-  double ahead = none_ahead;        ///< value of the explanation that it is compared with
-};
-
-Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter, const Way& way) {
+Ruling polished_anew(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
+                     const PolishWay& way) {
   PolishSettings settings;
   settings.rounds = 1;
   settings.most_iterations = way.most_iterations;
@@ -80,6 +73,19 @@ Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forw
   else
     ruling.exhausted = learned && way.most_iterations == further_iterations;
   return judged(std::move(ruling), fitter);
+}
+
+Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter, PolishWay way) {
+  if (way.most_iterations == 0) way.most_iterations = further_iterations;
+  const PolishQuestion question{fitter.nominal(), start, std::move(way)};
+  if (const Ruling* before = forward.before().answer(question)) {
+    Ruling ruling = *before;
+    ruling.fit = fit;
+    return ruling;
+  }
+  Ruling ruling = polished_anew(fit, start, forward, fitter, question.way);
+  forward.before().note(question, ruling);
+  return ruling;
 }
 
 }  // namespace

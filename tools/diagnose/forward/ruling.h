@@ -23,6 +23,8 @@ inline constexpr double of_consequence_nats = 10.0;
 struct SeenSlopes {
   std::shared_ptr<const Slopes> slopes;  ///< none yet: nullptr
   std::vector<const Hypothesis*> effects;
+
+  bool operator==(const SeenSlopes&) const = default;
 };
 
 struct Ruling {
