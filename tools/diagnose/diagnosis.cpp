@@ -167,10 +167,9 @@ class Diagnosing {
     constexpr double surely_deviations = 3.0;
     const auto likelier =
         compared(likelihood(forward_, extended(polished.model)), likelihood(forward_, extended(fit_.model)));
-    if (closest(forward_, ways) < of_polished || likelier.deviations >= surely_deviations) {
-      fit_.model = polished.model;
-      covariance_ = with_what_only_inverse_tells(polished.covariance, covariance_, polished.model, fit_.base_count());
-    }
+    if (closest(forward_, ways) >= of_polished && likelier.deviations < surely_deviations) return;
+    fit_.model = polished.model;
+    covariance_ = with_what_only_inverse_tells(polished.covariance, covariance_, polished.model, fit_.base_count());
     const std::size_t named = fit_.model.effects.size();
     drop_sizeless(forward_, fitter_, by_inverse_model_.model, found_, fit_, covariance_, progress_);
     if (fit_.model.effects.size() < named) fit_.model = polished_if_closer(forward_, fitter_, fit_.model);

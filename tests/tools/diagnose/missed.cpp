@@ -26,8 +26,6 @@ TEST(NatsToStay, ATorqueConstantNeedsMoreWhereItPutsTheNumbersFartherFromNominal
   EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error"), -17.0), 2000.0);
   EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), -17.0), 6000.0);  // numbers do not take that up
   EXPECT_DOUBLE_EQ(nats_to_stay(found("payload"), -17.0), -10.0);
-  EXPECT_DOUBLE_EQ(nats_to_stay(found("gravity"), -1.0), 600.0);
-  EXPECT_DOUBLE_EQ(nats_to_stay(found("gravity"), 23.0), 150.0);
 }
 
 TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {

@@ -10,12 +10,10 @@ namespace {
 /// A rival that the inverse model finds this much worse, as a share of what the named one brings, is not simulated.
 constexpr double hopeless = 0.5;
 
-/// What is so far behind is not asked again because another name was exchanged.
-constexpr double surely_nats = 2000.0, surely_deviations = 4.0;
-
 }  // namespace
 
-bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e, Settled& settled) const {
+bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e,
+                        std::vector<const Hypothesis*>& beaten) const {
   const auto* named = fit.model.effects[e].hypothesis;
   Found* const entry = found.of(named);
   // a nuisance only says how the channels read: no name may come of it
@@ -24,8 +22,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   for (const auto& other : hypotheses())
     if (easily_confused(*named, other) && std::ranges::find(asked, &other) == asked.end()) asked.push_back(&other);
   std::erase_if(asked, [&](const Hypothesis* other) {
-    return has(fit.model, *other) || std::ranges::find(settled.beaten, other) != settled.beaten.end() ||
-           std::ranges::find(settled.surely_told, std::pair(named, other)) != settled.surely_told.end();
+    return has(fit.model, *other) || std::ranges::find(beaten, other) != beaten.end();
   });
   const Fit less = fitter_.fit(without(fit.model, e), found.whitening, refit_iterations);
   for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {
@@ -47,10 +44,8 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
                        std::copysign(difference.deviations, better) == difference.deviations &&
                        std::abs(difference.deviations) > clearly_deviations;
     if (!clear) entry->rivals.push_back(score.hypothesis);
-    if (clear && better < -surely_nats && difference.deviations < -surely_deviations)
-      settled.surely_told.emplace_back(named, score.hypothesis);
     if (!clear || rival.value < now.value) continue;
-    settled.beaten.push_back(named);
+    beaten.push_back(named);
     entry->effect = rival.model.effects[e];
     entry->rivals.clear();
     fit = rival.fit;
@@ -64,10 +59,10 @@ std::optional<Ruling> Arbiter::settle(SearchResult& found, Fit& fit, std::option
   if (found.found.empty()) return before;
   constexpr int most_exchanges = 3;
   Ruling now = before ? std::move(*before) : rule(fit, forward_, fitter_);
-  Settled settled;
+  std::vector<const Hypothesis*> beaten;
   int exchanges = 0;
   for (std::size_t e = 0; e < fit.model.effects.size();) {
-    const bool again = exchanges < most_exchanges && exchanged(found, fit, now, e, settled);
+    const bool again = exchanges < most_exchanges && exchanged(found, fit, now, e, beaten);
     if (again) ++exchanges;
     e = again ? 0 : e + 1;
   }

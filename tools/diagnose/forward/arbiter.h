@@ -4,8 +4,6 @@
 // clearly better both stay in question; one that is clearly worse is ruled out.
 
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "tools/diagnose/forward/ruling.h"
 #include "tools/diagnose/search.h"
@@ -23,13 +21,9 @@ class Arbiter {
   std::optional<Ruling> settle(SearchResult& found, Fit& fit, std::optional<Ruling> before = {}) const;
 
  private:
-  /// What is not asked again when another name was exchanged.
-  struct Settled {
-    std::vector<const Hypothesis*> beaten;  ///< went for another
-    std::vector<std::pair<const Hypothesis*, const Hypothesis*>>
-        surely_told;  ///< a name, and what could not stand in its place
-  };
-  [[nodiscard]] bool exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t effect, Settled& settled) const;
+  /// @param beaten were exchanged before and are not asked again
+  [[nodiscard]] bool exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t effect,
+                               std::vector<const Hypothesis*>& beaten) const;
 
   const ForwardModel& forward_;
   const Fitter& fitter_;

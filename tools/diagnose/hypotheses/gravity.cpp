@@ -30,9 +30,6 @@ Hypothesis gravity() {
           .sentence = "a constant {force_N} N acts on the table against positive motion",
           .number_of_the_model = true,
           .absorbed = true,
-          // of eight with it the runs were 1576 to 13157 nats less likely without; of four without -2 to 16, and 474, whose
-          // numbers were nearer to nominal without
-          .least_missed_nats = 150.0,
           .confused_with = {"torque_offset", "cable_spring", "direction_dependent_friction"},
           .friction = false};
 }
