@@ -85,7 +85,8 @@ class Diagnosing {
     settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
     search_anew_if_the_motor_sets_in();
     const auto names_before = fit_.model.effects;
-    keep_confirmed(forward_, fitter_, found_, fit_, settled_, progress_);
+    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    if (settled_ && !same_names(names_before)) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
     const auto names_confirmed = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_, std::move(settled_));
     if (!same_names(names_confirmed)) ask_the_others_again();
@@ -143,7 +144,9 @@ class Diagnosing {
   /// What was named in place of a name that came later goes.
   void ask_the_others_again() {
     if (is_far_behind_settled()) return;
-    keep_confirmed(forward_, fitter_, found_, fit_, settled_, progress_);
+    const std::size_t before = fit_.model.effects.size();
+    keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    if (fit_.model.effects.size() < before) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
   }
 
   [[nodiscard]] Eigen::MatrixXd covariance_of(const Fit& fit) const {

@@ -3,11 +3,9 @@
 // that were not fitted comes closer to the recording with it than with the best model without it.
 
 #include <functional>
-#include <optional>
 #include <string_view>
 
 #include "tools/diagnose/forward/forward_model.h"
-#include "tools/diagnose/forward/ruling.h"
 #include "tools/diagnose/search.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -25,8 +23,7 @@ struct Confirmation {
 
 /// Drops what the second engine does not bear out. Numbers of the model are told by how far the others would have to move.
 /// Nor is asked what the closed loop itself has named.
-/// @param settled the fit's model as the closed loop has it, where that was asked; in the end of the model that is left
 void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
-                    std::optional<Ruling>& settled, const std::function<void(std::string_view)>& progress);
+                    const std::function<void(std::string_view)>& progress);
 
 }  // namespace feedtwin::tools::diagnosis
