@@ -12,8 +12,6 @@ namespace {
 
 constexpr double nats_per_parameter = 4.0;
 constexpr double hopeless_nats = 1500.0;  // behind another: who is nearer is polished to the end
-/// Of polishing: the first explanation once and well, since the last polish goes on from there; others from good numbers.
-constexpr int first_iterations = 8, further_iterations = 3;
 
 double freedom(const Candidate& model) {
   double count = 0.0;
@@ -75,15 +73,15 @@ Ruling polished_anew(const Fit& fit, const Candidate& start, const ForwardModel&
   return judged(std::move(ruling), fitter);
 }
 
-Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter, PolishWay way) {
-  if (way.most_iterations == 0) way.most_iterations = further_iterations;
-  const PolishQuestion question{fitter.nominal(), start, std::move(way)};
+Ruling polished(const Fit& fit, const Candidate& start, const ForwardModel& forward, const Fitter& fitter,
+                const PolishWay& way) {
+  const PolishQuestion question{fitter.nominal(), start, way};
   if (const Ruling* before = forward.before().answer(question)) {
     Ruling ruling = *before;
     ruling.fit = fit;
     return ruling;
   }
-  Ruling ruling = polished_anew(fit, start, forward, fitter, question.way);
+  Ruling ruling = polished_anew(fit, start, forward, fitter, way);
   forward.before().note(question, ruling);
   return ruling;
 }

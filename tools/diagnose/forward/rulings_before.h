@@ -9,9 +9,12 @@
 
 namespace feedtwin::tools::diagnosis {
 
+/// Of polishing: the first explanation once and well, since the last polish goes on from there; others from good numbers.
+inline constexpr int first_iterations = 8, further_iterations = 3;
+
 /// How a model is polished.
 struct PolishWay {
-  int most_iterations = 0;          ///< 0: as many as from good numbers
+  int most_iterations = further_iterations;
   SeenSlopes known{};               ///< of an explanation beside it; none: seen anew
   bool of_effects = false;          ///< are those of the effects' numbers known too?
   double least_promise_nats = 0.0;  ///< of the last effect: where slopes promise less, nothing is polished
