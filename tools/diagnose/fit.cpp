@@ -69,6 +69,19 @@ Vector Fitter::step_without_jumps(const Candidate& at, Eigen::MatrixXd informati
   return solved(information, slope);
 }
 
+namespace {
+
+/// Below F_C the plant's F_S is F_C: no slope there leads back, and a step that the prior alone asks for ends far off.
+Candidate with_static_above_coulomb(Candidate model) {
+  for (auto* contact : {&model.axis.ball_screw, &model.axis.guide}) {
+    contact->static_N.pos = std::max(contact->static_N.pos, contact->coulomb_N.pos);
+    contact->static_N.neg = std::max(contact->static_N.neg, contact->coulomb_N.neg);
+  }
+  return model;
+}
+
+}  // namespace
+
 Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
   Candidate to = from;
   Index at = 0;
@@ -91,7 +104,7 @@ Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
       }
       effect.q[j] = std::clamp(effect.q[j] + change, p.lowest, p.highest);
     }
-  return to;
+  return with_static_above_coulomb(std::move(to));
 }
 
 std::vector<Fitter::Beside> Fitter::beside_of(const Candidate& at) const {
@@ -159,7 +172,7 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
 Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iterations) const {
   constexpr int longer = 5;            // times as many iterations while it still goes down fast:
   constexpr double fast_share = 1e-3;  // steps are bounded, and from a far start a few do not arrive
-  Fit best = linearised(start, whitening);
+  Fit best = linearised(with_static_above_coulomb(start), whitening);
   for (int i = 0; i < longer * iterations; ++i) {
     const Vector slope = best.jacobian.transpose() * best.white;
     const bool jumps = std::ranges::any_of(best.model.effects, [](const Active& a) { return a.hypothesis->jumps; });
