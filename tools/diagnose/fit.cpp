@@ -53,31 +53,34 @@ Vector Fitter::whitened(const Candidate& at, const Vector& residual, const White
   return white;
 }
 
-Vector Fitter::step_without_jumps(const Candidate& at, Eigen::MatrixXd information, Vector slope) const {
-  auto unknown = static_cast<Index>(base_.size());
-  for (const auto& effect : at.effects)
+std::vector<Index> Fitter::without_true_slope(const Fit& fit) const {
+  constexpr double nothing = 1e-3;  // of the prior's own slope
+  std::vector<Index> found;
+  for (Index i = 0; i < fit.base_count(); ++i)
+    if (fit.jacobian.col(i).head(model_.rows()).norm() < nothing) found.push_back(i);
+  Index unknown = fit.base_count();
+  for (const auto& effect : fit.model.effects)
     for (const auto& p : effect.hypothesis->parameters) {
       if (!fitted(p.kind)) continue;
-      if (effect.hypothesis->jumps) {
-        information.row(unknown).setZero();
-        information.col(unknown).setZero();
-        information(unknown, unknown) = 1.0;
-        slope[unknown] = 0.0;
-      }
+      if (effect.hypothesis->jumps) found.push_back(unknown);
       ++unknown;
     }
-  return solved(information, slope);
+  return found;
 }
 
 namespace {
 
-/// Below F_C the plant's F_S is F_C: no slope there leads back, and a step that the prior alone asks for ends far off.
-Candidate with_static_above_coulomb(Candidate model) {
-  for (auto* contact : {&model.axis.ball_screw, &model.axis.guide}) {
-    contact->static_N.pos = std::max(contact->static_N.pos, contact->coulomb_N.pos);
-    contact->static_N.neg = std::max(contact->static_N.neg, contact->coulomb_N.neg);
+/// @param held unknowns that stay where they are
+Vector damped_step(const Fit& at, Vector slope, double damping, const std::vector<Index>& held) {
+  Eigen::MatrixXd damped = at.information;
+  damped.diagonal() += (damping + 1e-12) * at.information.diagonal() + Vector::Constant(slope.size(), 1e-12);
+  for (const Index unknown : held) {
+    damped.row(unknown).setZero();
+    damped.col(unknown).setZero();
+    damped(unknown, unknown) = 1.0;
+    slope[unknown] = 0.0;
   }
-  return model;
+  return solved(damped, slope);
 }
 
 }  // namespace
@@ -104,7 +107,7 @@ Candidate Fitter::moved(const Candidate& from, const Vector& step) const {
       }
       effect.q[j] = std::clamp(effect.q[j] + change, p.lowest, p.highest);
     }
-  return with_static_above_coulomb(std::move(to));
+  return to;
 }
 
 std::vector<Fitter::Beside> Fitter::beside_of(const Candidate& at) const {
@@ -172,33 +175,30 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
 Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iterations) const {
   constexpr int longer = 5;            // times as many iterations while it still goes down fast:
   constexpr double fast_share = 1e-3;  // steps are bounded, and from a far start a few do not arrive
-  Fit best = linearised(with_static_above_coulomb(start), whitening);
+  Fit best = linearised(start, whitening);
   for (int i = 0; i < longer * iterations; ++i) {
     const Vector slope = best.jacobian.transpose() * best.white;
-    const bool jumps = std::ranges::any_of(best.model.effects, [](const Active& a) { return a.hypothesis->jumps; });
+    const std::vector<Index> untrue = without_true_slope(best);
     bool better = false;
     Candidate next;
     double cost = best.cost;
     struct Try {
       double damping, length;
-      bool jumps_held;
+      bool held;
     };
     // shorter along the same line first, since steps are bounded; then as Levenberg and Marquardt; at last
-    // without laws that jump, whose slopes promise what no step keeps
-    for (const auto [damping, length, jumps_held] : {Try{0.0, 1.0, false},
-                                                     {0.0, 0.5, false},
-                                                     {0.0, 0.2, false},
-                                                     {1e-3, 1.0, false},
-                                                     {3e-2, 1.0, false},
-                                                     {0.3, 1.0, false},
-                                                     {3.0, 1.0, false},
-                                                     {0.0, 1.0, true},
-                                                     {0.0, 0.3, true}}) {
-      if (jumps_held && !jumps) break;
-      Eigen::MatrixXd damped = best.information;
-      damped.diagonal() += (damping + 1e-12) * best.information.diagonal() + Vector::Constant(slope.size(), 1e-12);
-      next =
-          moved(best.model, length * (jumps_held ? step_without_jumps(best.model, damped, slope) : solved(damped, slope)));
+    // without those whose slopes promise what no step keeps
+    for (const auto [damping, length, held] : {Try{0.0, 1.0, false},
+                                               {0.0, 0.5, false},
+                                               {0.0, 0.2, false},
+                                               {1e-3, 1.0, false},
+                                               {3e-2, 1.0, false},
+                                               {0.3, 1.0, false},
+                                               {3.0, 1.0, false},
+                                               {0.0, 1.0, true},
+                                               {0.0, 0.3, true}}) {
+      if (held && untrue.empty()) break;
+      next = moved(best.model, length * damped_step(best, slope, damping, held ? untrue : std::vector<Index>{}));
       cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
       better = cost < best.cost;
       if (better) break;

@@ -75,8 +75,9 @@ class Fitter {
     bool refollow = false;  ///< friction is another one
   };
   [[nodiscard]] std::vector<Beside> beside_of(const Candidate& at) const;
-  /// The step with effects whose laws jump as they are.
-  [[nodiscard]] Vector step_without_jumps(const Candidate& at, Eigen::MatrixXd information, Vector slope) const;
+  /// Unknowns whose slopes promise what no step keeps: of laws that jump, and numbers of which the rows say nothing where
+  /// they stand, as of static friction below Coulomb's: the prior alone would take them to where they say a lot.
+  [[nodiscard]] std::vector<Index> without_true_slope(const Fit& fit) const;
   [[nodiscard]] Candidate moved(const Candidate& from, const Vector& step) const;
 
   const InverseModel& model_;
