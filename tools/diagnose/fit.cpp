@@ -187,7 +187,7 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
       bool held;
     };
     // shorter along the same line first, since steps are bounded; then as Levenberg and Marquardt; at last
-    // without those whose slopes promise what no step keeps
+    // without those whose slopes promise what no step keeps, if that brings more than a crumb
     for (const auto [damping, length, held] : {Try{0.0, 1.0, false},
                                                {0.0, 0.5, false},
                                                {0.0, 0.2, false},
@@ -200,7 +200,7 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
       if (held && untrue.empty()) break;
       next = moved(best.model, length * damped_step(best, slope, damping, held ? untrue : std::vector<Index>{}));
       cost = whitened(next, model_.residual(next.axis, next.effects), whitening).squaredNorm();
-      better = cost < best.cost;
+      better = cost < (held ? 1.0 - fast_share : 1.0) * best.cost;
       if (better) break;
     }
     if (!better) break;
