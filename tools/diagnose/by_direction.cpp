@@ -11,7 +11,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double least_deviations = 6.0, least_share = 0.03;
+constexpr double least_deviations = 6.0, least_share = 0.02;
 
 /// A friction's sum over the components, forth less back, and how it goes with the base parameters.
 struct Difference {

@@ -85,10 +85,13 @@ double nats_to_stay(const Found& named, double farther) {
   // What numbers take up takes them back when it goes: of 14 true torque constants, five of them with numbers fitted to data
   // that held it, they were 23 to 1173 squared tolerances farther off without; of one that was noise, 17 nearer.
   constexpr double where_it_puts_them_off = 4.0;
+  // of a weight without which the numbers are as good as where they were: a true one of 1.6 N put them 2 off
+  constexpr double clearly_nearer = 10.0;
   const Hypothesis& h = *named.effect.hypothesis;
   double least =
       farther > far_from_nominal ? h.least_missed_nats_far_off.value_or(h.least_missed_nats) : h.least_missed_nats;
   if (h.told_by_runs_nats && farther < 0.0) least *= where_it_puts_them_off;
+  if (h.number_of_the_model && farther < -clearly_nearer) least *= where_it_puts_them_off;
   if (named.error_ratio > explains_most_ratio) least = std::min(least, enough_of_what_explains_most);
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);
 }
