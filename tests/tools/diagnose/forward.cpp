@@ -129,10 +129,10 @@ PolishedScrew polished_screw(bool force_sensor) {
 }
 
 // Rests of a second or two tell the slope of the rise alone: in rise and time constant the fit crept along a ridge.
-TEST(ForwardModel, PolishingFindsHowFastBreakawayRises) {
+TEST(ForwardModel, PolishingFindsHowFastBreakawayRisesAndOverWhatPathItGoes) {
   auto truth = plant::source_axis();
   truth.effects.push_back(
-      tests::effect("dwell_breakaway", {{"relative_rise", 0.12}, {"time_constant_s", 1.5}, {"memory_distance_m", 2e-5}}));
+      tests::effect("dwell_breakaway", {{"relative_rise", 0.12}, {"time_constant_s", 1.5}, {"memory_distance_m", 5e-5}}));
   Case data = tests::short_case(truth, plant::source_axis());
   data.fit.clear();
   for (const double dwell_s : {0.2, 0.7, 1.5}) {
@@ -144,10 +144,11 @@ TEST(ForwardModel, PolishingFindsHowFastBreakawayRises) {
   const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
   const auto& dwell = hypothesis("dwell_breakaway");
-  const auto polished = polish(ForwardModel(data.fit, data), fitter, {data.axis, {{&dwell, {0.36 / 4.0, 1.0 / 4.0}}}});
+  const auto polished = polish(ForwardModel(data.fit, data), fitter, {data.axis, {{&dwell, {0.36 / 4.0, 1.0 / 4.0, 0.0}}}});
   const auto found = dwell.named(polished.model.effects[0].q, data.axis);
   EXPECT_NEAR(found[0].value, 0.12, 0.012);
   EXPECT_NEAR(found[1].value, 1.5, 0.2);
+  EXPECT_NEAR(found[2].value, 5e-5, 5e-6) << "it began from 20 um";
 }
 
 // The inverse model has no swing: what it makes of a gap is 5 % off, of its flank's stiffness half.

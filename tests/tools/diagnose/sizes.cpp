@@ -80,7 +80,7 @@ TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
 TEST(Sizes, WhatComesOutAtASizeThatCannotBeIsTakenBackHoweverMuchItIsMissed) {
   const Cogged made;
   for (const double rise : {0.1, 0.02}) {
-    const Candidate model{made.data.axis, {{&hypothesis("dwell_breakaway"), {rise, 1.0}}}};
+    const Candidate model{made.data.axis, {{&hypothesis("dwell_breakaway"), {rise, 1.0, 0.0}}}};
     Fit fit = made.fitter.linearised(model, made.whitening);
     SearchResult result;
     result.found.emplace_back().effect = model.effects[0];
