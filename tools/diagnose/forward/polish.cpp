@@ -44,7 +44,7 @@ Polished polish(const ForwardModel& forward, const Fitter& fitter, const Candida
   const bool moved = std::ranges::any_of(
       fit.parameters, [](const FittedParameter& p) { return p.value != p.parameter.start.value_or(p.parameter.nominal); });
   Polished polished{unknowns.at(fit.point()), {}, fit.cost, moved};
-  if (fit.covariance.size() > 0) polished.covariance = unknowns.as_of_fit(fit.covariance);
+  if (fit.covariance.size() > 0) polished.covariance = Unknowns(fitter, polished.model).as_of_fit(fit.covariance);
   return polished;
 }
 

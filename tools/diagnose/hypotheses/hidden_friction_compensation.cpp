@@ -33,9 +33,11 @@ Hypothesis hidden_friction_compensation() {
           .admissible = possible,
           .sentence = "the drive compensates friction on its own: {torque_Nm} N m beyond its command",
           .absorbed = true,
-          // true ones 14956 and more; beside friction that is not the textbook's it fits the few mm/s about a reversal,
-          // where nine false ones had 636 to 5600, whatever the numbers did
-          .least_missed_nats = 6000.0,
+          // true ones 7414 and more, and the numbers 190 squared tolerances and more farther from nominal, or 117432; beside
+          // friction that is not the textbook's it fits the few mm/s about a reversal, where false ones had 636 to 5600,
+          // whatever the numbers did, and 18842 to 36062 that left them where they were
+          .least_missed_nats = 5e4,
+          .least_missed_nats_far_off = 6000.0,
           .confused_with = {"torque_gain_error", "torque_offset", "direction_dependent_friction"},
           .friction = false};
 }
