@@ -5,7 +5,8 @@
 //
 // c = friction_per_load, F_table all that acts on the table but the guide's own friction: cutting, gravity, springs. The
 // guide's friction F_L, as it is while sliding, goes through the nut too: g = guide_friction_share of it, 1 in a machine
-// whose axis file says how much of the friction is the guide's; 0 where c is a figure for what comes from outside.
+// whose axis file says how much of the friction is the guide's; 0 where c is a figure for what comes from outside. Half a
+// newton for each newton is the most: near one, friction and what it meets on a soft screw feed each other.
 
 #include <array>
 #include <cmath>
@@ -40,7 +41,7 @@ class LoadDependentFriction final : public Effect {
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array load_dependent_friction_parameters{
-    EffectParameter{"friction_per_load", "1", 0.0, 1.0, {}, 0.0, "friction force for each newton through the nut"},
+    EffectParameter{"friction_per_load", "1", 0.0, 0.5, {}, 0.0, "friction force for each newton through the nut"},
     EffectParameter{"guide_friction_share", "1", 0.0, 1.0, 0.0, {}, "how much of the guide's own friction counts as going through the nut"},
 };
 // clang-format on

@@ -1,25 +1,40 @@
 #pragma once
 // A force of the process on the table: cutting, with the passing of teeth.
 //
-//   F = F_0 + A sin(2 pi f t + phase)
+//   F = F_0 + R tanh(v / 0.5 mm/s) + A sin(2 pi f t + phase)   from start to end, otherwise none
 //
-// F_0 = mean_N, A = amplitude_N, f = frequency_Hz, t since the run began.
+// F_0 = mean_N, R = opposing_N, A = amplitude_N, f = frequency_Hz, t since the run began; start_s and end_s: the tool is in
+// the cut. A sub-step that is in it for a part has that part of its mean.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "plant/effects/entry.h"
 #include "plant/effects/wave.h"
 
 namespace feedtwin::plant::effects {
 
+/// Speed at which what opposes the motion has turned round.
+inline constexpr double process_turns_m_per_s = 5e-4;
+
 class ProcessForce final : public Effect {
  public:
   ProcessForce(const EffectContext& /*context*/, const EffectSetting& setting)
-      : mean_N_(setting.values[0]), teeth_(setting.values[1], setting.values[2], setting.values[3]) {}
-  [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override { return {mean_N_ + teeth_.mean_N(m), 0.0}; }
+      : mean_N_(setting.values[0]),
+        start_s_(setting.values[4]),
+        end_s_(setting.values[5]),
+        opposing_N_(setting.values[6]),
+        teeth_(setting.values[1], setting.values[2], setting.values[3]) {}
+  [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
+    const double in_cut_s = std::min(m.time_s + m.h_s, end_s_) - std::max(m.time_s, start_s_);
+    const double share = std::max(0.0, in_cut_s / m.h_s), against = std::tanh(m.velocity_m_per_s / process_turns_m_per_s);
+    return {share * (mean_N_ + opposing_N_ * against + teeth_.mean_N(m)),
+            share * opposing_N_ / process_turns_m_per_s * (1.0 - against * against)};
+  }
 
  private:
-  double mean_N_;
+  double mean_N_, start_s_, end_s_, opposing_N_;
   TimeWave teeth_;
 };
 
@@ -30,6 +45,9 @@ inline constexpr std::array process_force_parameters{
     EffectParameter{"amplitude_N", "N", 0.0, 1e4, 0.0, 0.0, "half of the alternating force from peak to peak"},
     EffectParameter{"frequency_Hz", "Hz", 0.1, 2000.0, 100.0, {}, "teeth that pass in a second"},
     EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "at the start of the run"},
+    EffectParameter{"start_s", "s", 0.0, 1e9, 0.0, {}, "the tool comes into the cut, since the run began"},
+    EffectParameter{"end_s", "s", 0.0, 1e9, 1e9, {}, "it leaves the cut"},
+    EffectParameter{"opposing_N", "N", 0.0, 100000.0, 0.0, 0.0, "mean force against the motion, whichever way it goes"},
 };
 // clang-format on
 

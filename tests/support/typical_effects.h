@@ -40,7 +40,7 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"position_friction", {0.5, 3000.0, -2500.0}},
       {"power_meter_window", {0.05}},
       {"presliding_memory", {15.0, 1e-5}},
-      {"process_force", {20.0, 10.0, 150.0, 0.0}},
+      {"process_force", {20.0, 10.0, 150.0, 0.0, 0.05, 1e9, 5.0}},
       {"quadratic_drag", {800.0}},
       {"regeneration_clipped", {1.0}},
       {"rev_ripple", {4.0, 2.0, 0.1}},

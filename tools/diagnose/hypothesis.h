@@ -165,6 +165,9 @@ struct Hypothesis {
   /// Of a line whose phase may differ from run to run: amplitude and phase of a sin(w t + phase), t since that run began.
   std::complex<double> (*line_of)(std::span<const double> q, std::size_t run) = nullptr;
 
+  /// Of a force that may act in a part of each run: where start and end of each stand among the working parameters; 0: none.
+  std::size_t first_window = 0;
+
   /// Of a state that each run begins with, as the run before it may have left it: the plant's number that holds it, and
   /// which working parameter is the first run's (others follow; the first run's is fixed at none, the numbers hold it).
   std::string_view state = {};

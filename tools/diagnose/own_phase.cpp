@@ -4,6 +4,7 @@
 #include <span>
 
 #include "tools/diagnose/hypotheses/shapes.h"
+#include "tools/diagnose/windows.h"
 #include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -56,6 +57,15 @@ void take_states(const InverseModel& unseen, const Whitening& whitening, Candida
   if (differ) take_from_runs(unseen, whitening, model, effect, first, std::min(line_runs, unseen.tracks().size()), step);
 }
 
+/// The parts of the runs in which the line acts.
+void take_windows(const InverseModel& unseen, const Whitening& whitening, Candidate& model, std::size_t effect) {
+  Candidate without = model;
+  without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  auto& own = model.effects[effect];
+  const Vector white = whitening.applied(unseen, unseen.residual(without.axis, without.effects));
+  set_windows(*own.hypothesis, own.q, windows_of_line(unseen, white, own.q[2 * line_runs]));
+}
+
 }  // namespace
 
 bool phases_agree(const Active& line) {
@@ -78,6 +88,7 @@ Candidate for_unseen(const InverseModel& unseen, const Whitening& whitening, con
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
     if (!model.effects[e].hypothesis->state.empty()) take_states(unseen, whitening, model, e);
     if (model.effects[e].hypothesis->line_of == nullptr) continue;
+    if (windowed(model.effects[e])) take_windows(unseen, whitening, model, e);
     if (phases_agree(model.effects[e])) {
       const auto line = common_line(model.effects[e]);
       for (std::size_t run = 0; run < line_runs; ++run) set_line(model.effects[e], run, line);

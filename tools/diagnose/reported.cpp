@@ -6,6 +6,7 @@
 #include "tools/diagnose/hypotheses/shapes.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/sentence.h"
+#include "tools/diagnose/windows.h"
 #include "tools/intervals.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -92,6 +93,16 @@ std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const 
   return {{low, high}};
 }
 
+std::string parts_of_runs(const Active& active) {
+  std::string parts;
+  for (std::size_t run = 0; run < line_runs; ++run) {
+    const Window window = window_of_run(*active.hypothesis, active.q, run);
+    if (!window.whole())
+      parts += fmt::format("{}{:.3g} to {:.3g} s", parts.empty() ? "" : ", ", window.start_s, window.end_s);
+  }
+  return fmt::format(" It acts in a part of a run alone: {}; a held-out run's is taken from that run.", parts);
+}
+
 }  // namespace
 
 std::vector<Recalibrated> recalibrated(const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
@@ -142,6 +153,7 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
   if (effect.hypothesis->line_of != nullptr)
     effect.sentence += phases_agree(*now) ? " All runs share its phase."
                                           : " Each run has a phase of its own; a held-out run's is taken from that run.";
+  if (windowed(*now)) effect.sentence += parts_of_runs(*now);
   if (!effect.hypothesis->state.empty() && states_differ(*now)) {
     const auto [low, high] = states_from_to(*now);
     effect.sentence += fmt::format(

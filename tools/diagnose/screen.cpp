@@ -10,6 +10,7 @@
 #include <span>
 
 #include "tools/diagnose/asking.h"
+#include "tools/diagnose/windows.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -33,6 +34,19 @@ double line_power(const InverseModel& model, const Vector& white, double frequen
   return power;
 }
 
+/// Of the strongest lines those that act in a part of the runs, as shapes of their own: frequency, then start and end by
+/// run.
+void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& white) {
+  constexpr std::size_t strongest = 3;
+  for (std::size_t i = 0; i < std::min(strongest, kept.size()); ++i) {
+    std::vector<double> shape = kept[i];
+    std::size_t at = 1;
+    for (const Window& window : windows_of_line(model, white, shape[0]))
+      shape[at++] = window.start_s, shape[at++] = window.end_s;
+    if (shape != kept[i]) kept.insert(kept.begin(), shape), ++i;
+  }
+}
+
 /// The shapes that are worth asking about: of frequencies the strongest lines, some others for what chance does.
 std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const InverseModel& model, const Vector& white) {
   auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks()) : hypothesis.shapes;
@@ -44,6 +58,7 @@ std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const Inv
   std::vector<std::vector<double>> kept;
   for (std::size_t i = 0; i < std::min(strongest, lines.size()); ++i) kept.push_back(grid[lines[i].second]);
   for (std::size_t i = 0; i < grid.size(); i += 1 + grid.size() / spread) kept.push_back(grid[i]);
+  if (hypothesis.first_window > 0) add_windows(kept, model, white);
   return kept;
 }
 

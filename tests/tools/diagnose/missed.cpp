@@ -24,15 +24,25 @@ TEST(NatsToStay, ATorqueConstantNeedsFewerWhereTheNumbersWouldBeFarOff) {
 
 TEST(NatsToStay, ATorqueConstantNeedsMoreWhereItPutsTheNumbersFartherFromNominal) {
   EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error"), -17.0), 2000.0);
-  EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), -17.0), 6000.0);  // numbers do not take that up
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), -17.0), 5e4);  // numbers do not take that up
   EXPECT_DOUBLE_EQ(nats_to_stay(found("payload"), -17.0), -10.0);
+}
+
+TEST(NatsToStay, AWeightNeedsMoreWhereTheNumbersAreClearlyBetterWithout) {
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("gravity")), 150.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("gravity"), -2.0), 150.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("gravity"), -23.0), 600.0);
+}
+
+TEST(NatsToStay, ACompensationNeedsFewerWhereTheNumbersWouldBeFarOff) {
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), 0.0), 5e4);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), 190.0), 6000.0);
 }
 
 TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {
   for (const double farther : {0.0, 129.0}) {
     EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), -10.0);
     EXPECT_DOUBLE_EQ(nats_to_stay(found("hard_stop"), farther), 20.0);
-    EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), farther), 6000.0);
     EXPECT_DOUBLE_EQ(nats_to_stay(found("payload", true), farther), 100.0);
   }
 }
@@ -42,7 +52,7 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItExplainsMost) {
   one.error_ratio = 15.9;
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 500.0);
   one.error_ratio = 4.8;
-  EXPECT_DOUBLE_EQ(nats_to_stay(one), 6000.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4);
   Found other = found("cogging");
   other.error_ratio = 15.9;
   EXPECT_DOUBLE_EQ(nats_to_stay(other), -10.0);

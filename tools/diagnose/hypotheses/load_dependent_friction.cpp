@@ -42,7 +42,7 @@ Hypothesis load_dependent_friction() {
           .component = "ball_screw",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"friction_per_load", Kind::amplitude, 1e-2, 0.0, 1.0}, {"guide_friction_share", Kind::fixed}},
+          .parameters = {{"friction_per_load", Kind::amplitude, 1e-2, 0.0, 0.5}, {"guide_friction_share", Kind::fixed}},
           .shapes = {{0.0}, {1.0}},
           .apply = apply,
           .named = named,

@@ -1,25 +1,65 @@
-// A process pushes the table at one frequency, with a phase of its own in every run: cutting, tooth by tooth.
+// A process pushes the table at one frequency, with a phase of its own in every run: cutting, tooth by tooth. Where it cuts
+// in a part of each run alone, what it pushes with in the mean shows too; otherwise that is a weight.
 
 #include <algorithm>
 #include <cmath>
 
+#include "plant/effects/process_force.h"
 #include "tools/diagnose/hypotheses/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
+#include "tools/diagnose/windows.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+constexpr std::size_t frequency = 2 * line_runs, mean = frequency + 1, opposing = mean + 1, first_window = opposing + 1;
+
+Window window(std::span<const double> q, std::size_t run) {
+  Hypothesis where;
+  where.first_window = first_window;
+  return window_of_run(where, q, run);
+}
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  add_line(view.track, q, sum.guide_N);
+  const Track& track = view.track;
+  const Window cut = window(q, track.run);
+  if (cut.whole()) return add_line(track, q, sum.guide_N);
+  Vector force_N =
+      (q[mean] + q[opposing] * (track.centred_m_per_s.array() / plant::effects::process_turns_m_per_s).tanh()).matrix();
+  add_line(track, q, force_N);
+  add(sum.guide_N, force_N.cwiseProduct(covered(cut, track.size, track.sample_s)));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"amplitude_N", line_amplitude(q)}, {"frequency_Hz", q.back()}};
+  std::vector<NamedValue> values{{"amplitude_N", line_amplitude(q)}, {"frequency_Hz", q[frequency]}};
+  for (std::size_t run = 0; run < line_runs; ++run)
+    if (!window(q, run).whole()) {
+      values.push_back({"mean_N", q[mean]});
+      values.push_back({"opposing_N", q[opposing]});
+      break;
+    }
+  return values;
 }
 
 /// Than the 10 to 40 Hz of a floor.
 bool faster_than_a_floor(std::span<const double> q) {
-  return q.back() > 45.0;
+  return q[frequency] > 45.0;
+}
+
+std::vector<WorkingParameter> parameters() {
+  auto all = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 121.0});
+  all.push_back({"mean_N", Kind::amplitude, 0.1});
+  all.push_back({"opposing_N", Kind::amplitude, 0.1, 0.0, 1e5});
+  for (const char* name : {"start_0_s", "end_0_s", "start_1_s", "end_1_s", "start_2_s", "end_2_s", "start_3_s", "end_3_s"})
+    all.push_back({name, Kind::fixed});
+  return all;
+}
+
+/// In the whole of every run; the screen adds windows to the strongest.
+Grid shapes() {
+  Grid grid = frequencies(40.0, 120.0);
+  for (auto& shape : grid) shape.resize(1 + 2 * line_runs, 0.0);
+  return grid;
 }
 
 }  // namespace
@@ -29,8 +69,8 @@ Hypothesis process_force() {
           .component = "guide",
           .channel = "force_sensor_N",
           .where = Where::frequency,
-          .parameters = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 110.0}),
-          .shapes = frequencies(40.0, 100.0),
+          .parameters = parameters(),
+          .shapes = shapes(),
           .apply = apply,
           .named = named,
           .sentence = "a process pushes the table with {amplitude_N} N at {frequency_Hz} Hz",
@@ -39,6 +79,7 @@ Hypothesis process_force() {
           .always_beside = "floor_vibration",
           .far_from_beside = faster_than_a_floor,
           .line_of = line_of_run,
+          .first_window = first_window,
           .friction = false};
 }
 

@@ -1,0 +1,107 @@
+// A process that cuts in a part of each run: where, and with what.
+
+#include "tools/diagnose/windows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/support/made_case.h"
+#include "tools/diagnose/fit.h"
+#include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/forward_model.h"
+#include "tools/diagnose/lines.h"
+#include "tools/diagnose/own_phase.h"
+#include "tools/diagnose/screen.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+constexpr double frequency_Hz = 71.0, amplitude_N = 6.0, mean_N = 3.0, opposing_N = 2.0;
+
+tools::Recording cut(Window in_cut, double phase_rad) {
+  auto axis = plant::source_axis();
+  axis.effects.push_back(tests::effect("process_force", {{"mean_N", mean_N},
+                                                         {"opposing_N", opposing_N},
+                                                         {"amplitude_N", amplitude_N},
+                                                         {"frequency_Hz", frequency_Hz},
+                                                         {"phase_rad", phase_rad},
+                                                         {"start_s", in_cut.start_s},
+                                                         {"end_s", in_cut.end_s}}));
+  auto recording = tests::make_recording(axis, {.motion = "sine", .duration_s = 4.0});
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise_N(0.0, 0.5);
+  for (double& torque_Nm : recording.channels.at("torque_cmd_Nm"))
+    torque_Nm += noise_N(random) * axis.axis.lead_m / (2.0 * std::numbers::pi);
+  return recording;
+}
+
+struct Cut {
+  plant::AxisParameters nominal = plant::source_axis();
+  tools::Case data = tests::short_case(nominal, nominal);
+  InverseModel model, unseen;
+  Fitter fitter{model, nominal};
+  Vector residual = model.residual(nominal, {});
+  Whitening whitening = Whitening::estimate(model, residual - sharp_lines(model, residual));
+
+  Cut(Window first, Window second)
+      : model(make_tracks(runs(first, second), nominal), nominal),
+        unseen(make_tracks({cut({0.511, 1.403}, -2.0)}, nominal), nominal) {}
+  std::vector<tools::Recording> runs(Window first, Window second) {
+    data.fit = {cut(first, 0.4), cut(second, 1.9)};
+    return data.fit;
+  }
+};
+
+void expect_window(Window found, Window truth) {
+  constexpr double row_s = 0.004, rows = 3.0;
+  EXPECT_NEAR(found.start_s, truth.start_s, rows * row_s);
+  EXPECT_NEAR(found.end_s, truth.end_s, rows * row_s);
+}
+
+TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
+  const Window first{0.803, 2.204}, second{1.752, 3.106};
+  const Cut made(first, second);
+  Fit fit = made.fitter.fit({made.nominal, {}}, made.whitening, 4);
+  const auto scores = screen(made.fitter, fit, made.whitening).scores;
+  const auto score = std::ranges::find(scores, &hypothesis("process_force"), &Score::hypothesis);
+  fit = fit_with(made.fitter, fit.model, *score, 0, made.whitening, 8);
+  const Active& process = fit.model.effects.front();
+  ASSERT_TRUE(windowed(process));
+  expect_window(window_of_run(*process.hypothesis, process.q, 0), first);
+  expect_window(window_of_run(*process.hypothesis, process.q, 1), second);
+  const auto values = process.hypothesis->named(process.q, made.nominal);
+  const auto value = [&](std::string_view name) { return std::ranges::find(values, name, &NamedValue::name)->value; };
+  EXPECT_NEAR(value("amplitude_N"), amplitude_N, 0.3);
+  EXPECT_NEAR(value("frequency_Hz"), frequency_Hz, 0.02);
+  EXPECT_NEAR(value("mean_N"), mean_N, 0.5);
+  EXPECT_NEAR(value("opposing_N"), opposing_N, 0.5);
+
+  const ForwardModel simulated(made.data.fit, made.data);
+  EXPECT_LT(simulated.nrmse(extended(fit.model)).at("torque_cmd_Nm"),
+            0.25 * simulated.nrmse(made.nominal).at("torque_cmd_Nm"));
+
+  const Active told = for_unseen(made.unseen, made.whitening, fit.model).effects.front();
+  expect_window(window_of_run(*told.hypothesis, told.q, 0), {0.511, 1.403});
+}
+
+TEST(Windows, AreNoneWhereTheProcessNeverStops) {
+  const Cut made({0.0, 1e9}, {0.0, 1e9});
+  const Fit fit = made.fitter.fit({made.nominal, {}}, made.whitening, 4);
+  const Vector white = made.whitening.applied(made.model, made.model.residual(fit.model.axis, {}));
+  for (const Window& window : windows_of_line(made.model, white, frequency_Hz)) EXPECT_TRUE(window.whole());
+}
+
+TEST(Windows, AShareOfASampleIsCovered) {
+  const Vector share = covered({0.0012, 0.0030}, 6, 1e-3);
+  const std::vector<double> expected{0.0, 0.3, 1.0, 0.5, 0.0, 0.0};
+  for (Index k = 0; k < share.size(); ++k) EXPECT_NEAR(share[k], expected[static_cast<std::size_t>(k)], 1e-9) << k;
+}
+
+}  // namespace
+}  // namespace feedtwin
