@@ -8,7 +8,6 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
-#include "tools/diagnose/windows.h"
 #include "tools/linear_systems.h"
 #include "tools/median.h"
 
@@ -53,12 +52,11 @@ std::optional<double> strongest_line(const Rows& rows) {
   return 2.0 * std::numbers::pi * (static_cast<double>(at) + std::clamp(off, -0.5, 0.5)) / static_cast<double>(length);
 }
 
-/// The line of that frequency by least squares on the settled rows, or on the part of them in which it acts.
+/// The line of that frequency by least squares on the settled rows.
 Vector line_at(const Rows& rows, double radians_per_row) {
   const Index n = rows.values.size();
-  const auto [from, to] = part_of_line({rows.values}, radians_per_row, 0.0).value_or(std::pair<Index, Index>{0, n});
-  Eigen::MatrixXd waves = Eigen::MatrixXd::Zero(n, 2);
-  for (Index k = from; k < to; ++k) {
+  Eigen::MatrixXd waves(n, 2);
+  for (Index k = 0; k < n; ++k) {
     waves(k, 0) = rows.settled[k] * std::sin(radians_per_row * static_cast<double>(k));
     waves(k, 1) = rows.settled[k] * std::cos(radians_per_row * static_cast<double>(k));
   }

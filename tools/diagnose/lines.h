@@ -7,7 +7,7 @@
 namespace feedtwin::tools::diagnosis {
 
 /// The sum of the sharp lines of each run in each force equation, where the axis has settled; zero elsewhere. A line stands
-/// far above the spectrum beside it and is no wider than the run, or the part of it in which it acts, allows.
+/// far above the spectrum beside it and is no wider than the run allows.
 [[nodiscard]] Vector sharp_lines(const InverseModel& model, const Vector& residual);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -43,7 +43,7 @@ void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& mod
     std::size_t at = 1;
     for (const Window& window : windows_of_line(model, white, shape[0]))
       shape[at++] = window.start_s, shape[at++] = window.end_s;
-    if (shape != kept[i]) kept.insert(kept.begin(), shape), ++i;
+    if (shape != kept[i]) kept.push_back(std::move(shape));  // last: the others meet the same chance with it or without
   }
 }
 

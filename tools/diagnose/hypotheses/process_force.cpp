@@ -47,7 +47,7 @@ bool faster_than_a_floor(std::span<const double> q) {
 }
 
 std::vector<WorkingParameter> parameters() {
-  auto all = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 121.0});
+  auto all = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 110.0});
   all.push_back({"mean_N", Kind::amplitude, 0.1});
   all.push_back({"opposing_N", Kind::amplitude, 0.1, 0.0, 1e5});
   for (const char* name : {"start_0_s", "end_0_s", "start_1_s", "end_1_s", "start_2_s", "end_2_s", "start_3_s", "end_3_s"})
@@ -57,7 +57,7 @@ std::vector<WorkingParameter> parameters() {
 
 /// In the whole of every run; the screen adds windows to the strongest.
 Grid shapes() {
-  Grid grid = frequencies(40.0, 120.0);
+  Grid grid = frequencies(40.0, 100.0);
   for (auto& shape : grid) shape.resize(1 + 2 * line_runs, 0.0);
   return grid;
 }
