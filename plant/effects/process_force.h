@@ -27,13 +27,23 @@ class ProcessForce final : public Effect {
         opposing_N_(setting.values[6]),
         teeth_(setting.values[1], setting.values[2], setting.values[3]) {}
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
-    const double in_cut_s = std::min(m.time_s + m.h_s, end_s_) - std::max(m.time_s, start_s_);
-    const double share = std::max(0.0, in_cut_s / m.h_s), against = std::tanh(m.velocity_m_per_s / process_turns_m_per_s);
-    return {share * (mean_N_ + opposing_N_ * against + teeth_.mean_N(m)),
+    const double share = share_in_cut(m);
+    if (share == 0.0) return {};
+    const double pushing_N = mean_N_ + teeth_.mean_N(m);
+    if (opposing_N_ == 0.0) return {share * pushing_N, 0.0};
+    const double against = std::tanh(m.velocity_m_per_s / process_turns_m_per_s);
+    return {share * (pushing_N + opposing_N_ * against),
             share * opposing_N_ / process_turns_m_per_s * (1.0 - against * against)};
   }
 
  private:
+  /// Of the sub-step. One that is in it whole is told so: after days the difference of two times is no measure of an
+  /// instant.
+  [[nodiscard]] double share_in_cut(const EffectMotion& m) const noexcept {
+    const double from_s = std::max(start_s_ - m.time_s, 0.0), to_s = std::min(end_s_ - m.time_s, m.h_s);
+    return from_s == 0.0 && to_s == m.h_s ? 1.0 : std::max(0.0, (to_s - from_s) / m.h_s);
+  }
+
   double mean_N_, start_s_, end_s_, opposing_N_;
   TimeWave teeth_;
 };

@@ -59,11 +59,10 @@ void take_states(const InverseModel& unseen, const Whitening& whitening, Candida
 
 /// The parts of the runs in which the line acts.
 void take_windows(const InverseModel& unseen, const Whitening& whitening, Candidate& model, std::size_t effect) {
-  Candidate without = model;
-  without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  const Vector left = unseen.residual(model.axis, without(model, effect).effects);
   auto& own = model.effects[effect];
-  const Vector white = whitening.applied(unseen, unseen.residual(without.axis, without.effects));
-  set_windows(*own.hypothesis, own.q, windows_of_line(unseen, white, own.q[2 * line_runs]));
+  set_windows(own.hypothesis->first_window, own.q,
+              windows_of_line(unseen, whitening.applied(unseen, left), rate_of_line(own.q)));
 }
 
 }  // namespace

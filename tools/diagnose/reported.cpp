@@ -96,7 +96,7 @@ std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const 
 std::string parts_of_runs(const Active& active) {
   std::string parts;
   for (std::size_t run = 0; run < line_runs; ++run) {
-    const Window window = window_of_run(*active.hypothesis, active.q, run);
+    const Window window = window_of_run(active.hypothesis->first_window, active.q, run);
     if (!window.whole())
       parts += fmt::format("{}{:.3g} to {:.3g} s", parts.empty() ? "" : ", ", window.start_s, window.end_s);
   }

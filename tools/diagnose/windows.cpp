@@ -36,27 +36,33 @@ class LineSums {
   Index rows_ = 0;
 };
 
+struct Part {
+  Index from, to;
+  double power;
+};
+
 /// Rows that hold most of the line: on a grid of edges, which then move by ever less.
-std::pair<Index, Index> strongest_part(const LineSums& sums) {
-  std::pair<Index, Index> best{0, sums.rows()};
-  const auto power = [&](const std::pair<Index, Index>& part) { return sums.power(part.first, part.second); };
-  Index step = 1 + sums.rows() / most_edges;
-  for (Index from = 0; from < sums.rows(); from += step)
-    for (Index to = from + least_rows; to <= sums.rows(); to += step)
-      if (sums.power(from, to) > power(best)) best = {from, to};
+Part strongest_part(const LineSums& sums) {
+  const Index all = sums.rows();
+  Part best{0, all, sums.power(0, all)};
+  const auto take_if_stronger = [&](Index from, Index to) {
+    const double power = sums.power(from, to);
+    if (power > best.power) best = {from, to, power};
+  };
+  Index step = 1 + all / most_edges;
+  for (Index from = 0; from < all; from += step)
+    for (Index to = from + least_rows; to <= all; to += step) take_if_stronger(from, to);
   for (; step > 0; step /= 2)
     for (const Index moved : {-step, step}) {
-      const std::pair start{std::clamp<Index>(best.first + moved, 0, sums.rows()), best.second};
-      if (power(start) > power(best)) best = start;
-      const std::pair end{best.first, std::clamp<Index>(best.second + moved, 0, sums.rows())};
-      if (power(end) > power(best)) best = end;
+      take_if_stronger(std::clamp<Index>(best.from + moved, 0, all), best.to);
+      take_if_stronger(best.from, std::clamp<Index>(best.to + moved, 0, all));
     }
   return best;
 }
 
 Window window_of_line(const InverseModel& model, const Vector& white, std::size_t run, double frequency_Hz) {
-  constexpr double stronger_by =
-      12.0;  // of unit noise a line's power has a mean of one, the strongest of many parts a few more
+  // of unit noise a line's power has a mean of one, the strongest of many parts a few more
+  constexpr double times_as_strong = 1.3, stronger_by = 12.0;
   std::vector<Vector> rows;
   Index first_sample = 0;
   for (const auto& s : model.segments()) {
@@ -65,23 +71,15 @@ Window window_of_line(const InverseModel& model, const Vector& white, std::size_
     first_sample = model.sample_of(s, 0);
   }
   const double row_s = InverseModel::decimation * model.tracks()[run].sample_s;
-  const auto part = part_of_line(rows, 2.0 * std::numbers::pi * frequency_Hz * row_s, stronger_by);
-  if (!part) return {};
+  const LineSums sums(rows, 2.0 * std::numbers::pi * frequency_Hz * row_s);
+  const Part part = strongest_part(sums);
+  const double whole = sums.power(0, sums.rows());
+  if (part.power < std::max(times_as_strong * whole, whole + stronger_by)) return {};
   const double begun_s = static_cast<double>(first_sample) * model.tracks()[run].sample_s - 0.5 * row_s;
-  return {begun_s + static_cast<double>(part->first) * row_s, begun_s + static_cast<double>(part->second) * row_s};
+  return {begun_s + static_cast<double>(part.from) * row_s, begun_s + static_cast<double>(part.to) * row_s};
 }
 
 }  // namespace
-
-std::optional<std::pair<Index, Index>> part_of_line(const std::vector<Vector>& rows, double radians_per_row,
-                                                    double stronger_by) {
-  constexpr double times_as_strong = 1.3;
-  const LineSums sums(rows, radians_per_row);
-  const auto [from, to] = strongest_part(sums);
-  const double whole = sums.power(0, sums.rows());
-  if (sums.power(from, to) < std::max(times_as_strong * whole, whole + stronger_by)) return {};
-  return std::pair{from, to};
-}
 
 Vector covered(const Window& window, Index samples, double sample_s) {
   Vector share(samples);
@@ -100,23 +98,23 @@ std::vector<Window> windows_of_line(const InverseModel& model, const Vector& whi
   return windows;
 }
 
-Window window_of_run(const Hypothesis& hypothesis, std::span<const double> q, std::size_t run) {
-  const std::size_t at = hypothesis.first_window + 2 * std::min(run, line_runs - 1);
-  if (hypothesis.first_window == 0 || at + 1 >= q.size()) return {};
+Window window_of_run(std::size_t first_window, std::span<const double> q, std::size_t run) {
+  const std::size_t at = first_window + 2 * std::min(run, line_runs - 1);
+  if (first_window == 0 || at + 1 >= q.size()) return {};
   return {q[at], q[at + 1]};
 }
 
-void set_windows(const Hypothesis& hypothesis, std::span<double> q, std::span<const Window> windows) {
+void set_windows(std::size_t first_window, std::span<double> q, std::span<const Window> windows) {
   for (std::size_t run = 0; run < line_runs; ++run) {
     const Window window = run < windows.size() ? windows[run] : Window{};
-    q[hypothesis.first_window + 2 * run] = window.start_s;
-    q[hypothesis.first_window + 2 * run + 1] = window.end_s;
+    q[first_window + 2 * run] = window.start_s;
+    q[first_window + 2 * run + 1] = window.end_s;
   }
 }
 
-bool windowed(const Active& active) {
+bool windowed(std::size_t first_window, std::span<const double> q) {
   for (std::size_t run = 0; run < line_runs; ++run)
-    if (!window_of_run(*active.hypothesis, active.q, run).whole()) return true;
+    if (!window_of_run(first_window, q, run).whole()) return true;
   return false;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 // A force that acts in a part of each run, as a process does while the tool is in the cut.
 
-#include <optional>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "tools/diagnose/inverse_model.h"
@@ -18,19 +17,17 @@ struct Window {
 /// Its part of the time about each sample of a run.
 [[nodiscard]] Vector covered(const Window& window, Index samples, double sample_s);
 
-/// Rows from, and up to which, series that stand beside each other hold more of a line than all of them do: by a third and
-/// so much; none where they do not.
-[[nodiscard]] std::optional<std::pair<Index, Index>> part_of_line(const std::vector<Vector>& rows, double radians_per_row,
-                                                                  double stronger_by);
-
-/// Where in each run a line acts: the part in which the whitened rows of the table's force hold most of it; all of a run
-/// where that is as good.
+/// Where in each run a line acts: the part in which the whitened rows of the table's force hold most of it, by a third more
+/// than all of them do; otherwise all of a run.
 [[nodiscard]] std::vector<Window> windows_of_line(const InverseModel& model, const Vector& white, double frequency_Hz);
 
-/// Of an effect that has windows, see Hypothesis::first_window; any further run shares the last one's.
-[[nodiscard]] Window window_of_run(const Hypothesis& hypothesis, std::span<const double> q, std::size_t run);
-void set_windows(const Hypothesis& hypothesis, std::span<double> q, std::span<const Window> windows);
+/// Of an effect's working parameters, see Hypothesis::first_window; any further run shares the last one's.
+[[nodiscard]] Window window_of_run(std::size_t first_window, std::span<const double> q, std::size_t run);
+void set_windows(std::size_t first_window, std::span<double> q, std::span<const Window> windows);
 /// Does it act in a part of any run alone?
-[[nodiscard]] bool windowed(const Active& active);
+[[nodiscard]] bool windowed(std::size_t first_window, std::span<const double> q);
+[[nodiscard]] inline bool windowed(const Active& active) {
+  return windowed(active.hypothesis->first_window, active.q);
+}
 
 }  // namespace feedtwin::tools::diagnosis

@@ -52,6 +52,17 @@ TEST(ByDirection, ADifferenceIsToldToWhoHasOneNumberForBoth) {
   EXPECT_EQ(without_sensors->alternatives, (std::vector<std::string>{"torque_offset", "gravity"}));
 }
 
+TEST(ByDirection, ADifferenceOfTwoPerCentIsTold) {
+  const auto nominal = same_both_ways(plant::source_axis());
+  const double coulomb_N = nominal.motor.coulomb_N.pos + nominal.ball_screw.coulomb_N.pos + nominal.guide.coulomb_N.pos;
+  for (const double share : {0.015, 0.025}) {
+    auto truth = nominal;
+    for (auto* friction_N : {&truth.ball_screw.coulomb_N, &truth.ball_screw.static_N})
+      friction_N->pos += 0.5 * share * coulomb_N, friction_N->neg -= 0.5 * share * coulomb_N;
+    EXPECT_EQ(told(truth, nominal, true).has_value(), share > 0.02) << share;
+  }
+}
+
 TEST(ByDirection, NothingIsToldOfAMachineThatIsTheSameBothWaysOrToWhoKnows) {
   auto off = same_both_ways(plant::source_axis());
   off.ball_screw.coulomb_N.pos *= 1.08, off.ball_screw.coulomb_N.neg *= 1.08;

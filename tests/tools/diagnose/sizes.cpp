@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/tools/diagnose/cogged.h"
+#include "tools/diagnose/forward/extended_axis.h"
 
 namespace feedtwin {
 namespace {
@@ -75,6 +76,29 @@ TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
   EXPECT_EQ(left_of(0.1, 1000.0), 1U) << "the closed loop misses it";
   EXPECT_EQ(left_of(0.03, 5.0), 1U);
   EXPECT_EQ(left_of(0.03, -5.0), 0U) << "the closed loop does better without";
+}
+
+// Its own deviations are large because it goes with the effect's other numbers.
+TEST(Sizes, WhatIsMissedIsToldHoweverWideItsAmplitudeIs) {
+  constexpr double amplitude_Nm = 3.8e-4;
+  const Cogged made;
+  const Candidate model{made.data.axis, {{&hypothesis("cogging"), {amplitude_Nm, 0.0, 8.0}}}};
+  const auto& torque = "torque_cmd_Nm";
+  const double change = made.forward.nrmse(made.data.axis).at(torque) / made.forward.nrmse(extended(model)).at(torque) - 1.0;
+  ASSERT_GT(change, 0.03);
+  ASSERT_LT(change, 0.05) << "without doubt";
+  for (const double missed_nats : {50.0, 137.0}) {
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = model.effects[0];
+    result.found[0].missed_nats = missed_nats;
+    Eigen::MatrixXd covariance = fit.covariance;
+    covariance.bottomRows(3).setZero();
+    covariance.rightCols(3).setZero();
+    covariance.bottomRightCorner<3, 3>().diagonal().setConstant(std::pow(amplitude_Nm / 1.7, 2));
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), missed_nats > 100.0 ? 1U : 0U) << missed_nats;
+  }
 }
 
 TEST(Sizes, WhatComesOutAtASizeThatCannotBeIsTakenBackHoweverMuchItIsMissed) {

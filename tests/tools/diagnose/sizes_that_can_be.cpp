@@ -53,6 +53,17 @@ TEST(ScrewGrowth, IsNoWrongLead) {
   EXPECT_FALSE(can_be(5.8e-5, 6.1e-5)) << "as long as it will ever be";
 }
 
+TEST(FrictionDrift, IsNotOverWithinAMove) {
+  const auto can_be = [](double time_constant_s, double second_run) {
+    return possible({&hypothesis("friction_drift"), {-0.03, time_constant_s, 0.0, second_run, 0.0, 0.0}},
+                    plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(20.0, 0.0));
+  EXPECT_TRUE(can_be(1e4, -0.05)) << "a step between the runs";
+  EXPECT_FALSE(can_be(0.42, 0.0)) << "a screw that warms";
+  EXPECT_FALSE(can_be(0.42, -0.05));
+}
+
 TEST(Payload, IsOfTheOrderOfWhatTheDriveMoves) {
   const auto can_be = [](double mass_kg) { return possible({&hypothesis("payload"), {mass_kg}}, plant::source_axis()); };
   EXPECT_TRUE(can_be(13.0));

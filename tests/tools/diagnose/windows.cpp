@@ -76,8 +76,8 @@ TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
   fit = fit_with(made.fitter, fit.model, *score, 0, made.whitening, 8);
   const Active& process = fit.model.effects.front();
   ASSERT_TRUE(windowed(process));
-  expect_window(window_of_run(*process.hypothesis, process.q, 0), first);
-  expect_window(window_of_run(*process.hypothesis, process.q, 1), second);
+  expect_window(window_of_run(process.hypothesis->first_window, process.q, 0), first);
+  expect_window(window_of_run(process.hypothesis->first_window, process.q, 1), second);
   const auto values = process.hypothesis->named(process.q, made.nominal);
   const auto value = [&](std::string_view name) { return std::ranges::find(values, name, &NamedValue::name)->value; };
   EXPECT_NEAR(value("amplitude_N"), amplitude_N, 0.3);
@@ -86,7 +86,7 @@ TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
   EXPECT_NEAR(value("opposing_N"), opposing_N, 0.5);
 
   const Active told = for_unseen(made.unseen, made.whitening, fit.model).effects.front();
-  expect_window(window_of_run(*told.hypothesis, told.q, 0), {0.511, 1.403});
+  expect_window(window_of_run(told.hypothesis->first_window, told.q, 0), {0.511, 1.403});
 }
 
 // The law of the inverse model, handed to the plant run by run.
@@ -98,11 +98,11 @@ TEST(Windows, AreEachRunsOwnInTheClosedLoop) {
     for (const double part : {std::cos(phase_rad), std::sin(phase_rad)}) process.q.push_back(amplitude_N * part);
   for (const double number : {frequency_Hz, mean_N, opposing_N}) process.q.push_back(number);
   process.q.resize(process.hypothesis->parameters.size(), 0.0);
-  set_windows(*process.hypothesis, process.q, std::vector{first, second});
+  set_windows(process.hypothesis->first_window, process.q, std::vector{first, second});
   const ForwardModel simulated(made.data.fit, made.data);
   const auto error = [&](const Candidate& model) { return simulated.nrmse(extended(model)).at("torque_cmd_Nm"); };
   EXPECT_LT(error({made.nominal, {process}}), 0.15 * error({made.nominal, {}}));
-  set_windows(*process.hypothesis, process.q, std::vector{second, first});
+  set_windows(process.hypothesis->first_window, process.q, std::vector{second, first});
   EXPECT_GT(error({made.nominal, {process}}), error({made.nominal, {}})) << "the wrong way about";
 }
 

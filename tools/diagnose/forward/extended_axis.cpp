@@ -44,9 +44,9 @@ void set_phases(AxisByRun& all, const Active& line) {
 }
 
 /// The first run's are what is handed on.
-void set_windows(AxisByRun& all, const Active& active) {
+void set_parts(AxisByRun& all, const Active& active) {
   for (std::size_t run = line_runs; run-- > 0;) {
-    const Window window = window_of_run(*active.hypothesis, active.q, run);
+    const Window window = window_of_run(active.hypothesis->first_window, active.q, run);
     for (auto* axis : {&all.runs[run], &all.common}) {
       set_number(*axis, active, "start_s", window.start_s);
       set_number(*axis, active, "end_s", window.whole() ? 1e9 : window.end_s);
@@ -70,7 +70,7 @@ AxisByRun with_phases_of(const Candidate& model, plant::AxisParameters axis) {
     if (h.line_of == nullptr && h.state.empty()) continue;
     if (all.runs.empty()) all.runs.assign(line_runs, all.common);
     if (h.line_of != nullptr) set_phases(all, active);
-    if (windowed(active)) set_windows(all, active);
+    if (windowed(active)) set_parts(all, active);
     if (!h.state.empty()) set_states(all, active);
   }
   return all;

@@ -55,25 +55,25 @@ bool finding(std::span<const double> q) {
 }  // namespace
 
 Hypothesis dwell_breakaway() {
-  return {
-      .id = "dwell_breakaway",
-      .component = "ball_screw",
-      .channel = "torque_cmd_Nm",
-      .where = Where::reversal,
-      .parameters = {{"slope_per_s", Kind::amplitude, 1e-2, 0.0, 100.0},
-                     {"rate_per_s", Kind::shape, 1e-2, slowest_per_s, 100.0},
-                     {"log_memory", Kind::shape, 0.05, -2.5, 3.2}},
-      .shapes = {{20.0, 0.0}, {3.0, 0.0}, {0.5, 0.0}},
-      .apply = apply,
-      .named = named,
-      .admissible = possible,
-      .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
-      .least_gain = 100.0,  // friction about reversals is modelled worst: 33 to 93 where there was none, true ones 364
-      .about_reversals = true,
-      .finding = finding,
-      .confused_with = {"presliding_memory"},
-      .closed_loop_starts = {{0.3, 1.0, 0.0}},  // about reversals the inverse model has only their ratio, and that roughly
-      .friction = true};
+  return {.id = "dwell_breakaway",
+          .component = "ball_screw",
+          .channel = "torque_cmd_Nm",
+          .where = Where::reversal,
+          .parameters = {{"slope_per_s", Kind::amplitude, 1e-2, 0.0, 100.0},
+                         {"rate_per_s", Kind::shape, 1e-2, slowest_per_s, 100.0},
+                         {"log_memory", Kind::shape, 0.05, -2.5, 3.2}},
+          .shapes = {{20.0, 0.0}, {3.0, 0.0}, {0.5, 0.0}},
+          .apply = apply,
+          .named = named,
+          .admissible = possible,
+          .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
+          .least_gain = 100.0,  // friction about reversals is modelled worst: 33 to 93 where there was none, true ones 364
+          .about_reversals = true,
+          .finding = finding,
+          .confused_with = {"presliding_memory"},
+          // about reversals the inverse model has only their ratio, and that roughly
+          .closed_loop_starts = {{0.3, 1.0, 0.0}},
+          .friction = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -14,12 +14,12 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& axis) {
-  return {{"acceleration_m_per_s2", line_amplitude(q) / axis.guide_mass_kg}, {"frequency_Hz", q.back()}};
+  return {{"acceleration_m_per_s2", line_amplitude(q) / axis.guide_mass_kg}, {"frequency_Hz", rate_of_line(q)}};
 }
 
 /// Floors shake at 10 to 40 Hz; teeth seldom pass as slowly as this.
 bool slower_than_teeth(std::span<const double> q) {
-  return q.back() < 30.0;
+  return rate_of_line(q) < 30.0;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ Hypothesis gravity() {
           .sentence = "a constant {force_N} N acts on the table against positive motion",
           .number_of_the_model = true,
           .absorbed = true,
-          // eight true ones of another generator 1576 and more, and one of 1.6 N 448; false ones 1 and, without it the
+          // eight true ones 1576 and more, and one of 1.6 N 448; false ones 1 and, without it the
           // numbers 23 squared tolerances nearer to nominal, 474
           .least_missed_nats = 150.0,
           .confused_with = {"torque_offset", "cable_spring", "direction_dependent_friction"},

@@ -12,17 +12,11 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::size_t frequency = 2 * line_runs, mean = frequency + 1, opposing = mean + 1, first_window = opposing + 1;
-
-Window window(std::span<const double> q, std::size_t run) {
-  Hypothesis where;
-  where.first_window = first_window;
-  return window_of_run(where, q, run);
-}
+constexpr std::size_t mean = 2 * line_runs + 1, opposing = mean + 1, first_window = opposing + 1;
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const Window cut = window(q, track.run);
+  const Window cut = window_of_run(first_window, q, track.run);
   if (cut.whole()) return add_line(track, q, sum.guide_N);
   Vector force_N =
       (q[mean] + q[opposing] * (track.centred_m_per_s.array() / plant::effects::process_turns_m_per_s).tanh()).matrix();
@@ -31,19 +25,17 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  std::vector<NamedValue> values{{"amplitude_N", line_amplitude(q)}, {"frequency_Hz", q[frequency]}};
-  for (std::size_t run = 0; run < line_runs; ++run)
-    if (!window(q, run).whole()) {
-      values.push_back({"mean_N", q[mean]});
-      values.push_back({"opposing_N", q[opposing]});
-      break;
-    }
+  std::vector<NamedValue> values{{"amplitude_N", line_amplitude(q)}, {"frequency_Hz", rate_of_line(q)}};
+  if (windowed(first_window, q)) {
+    values.push_back({"mean_N", q[mean]});
+    values.push_back({"opposing_N", q[opposing]});
+  }
   return values;
 }
 
 /// Than the 10 to 40 Hz of a floor.
 bool faster_than_a_floor(std::span<const double> q) {
-  return q[frequency] > 45.0;
+  return rate_of_line(q) > 45.0;
 }
 
 std::vector<WorkingParameter> parameters() {

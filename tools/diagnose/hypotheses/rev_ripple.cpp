@@ -12,16 +12,16 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const auto line = line_of_run(q, view.track.run);
   if (line == 0.0) return;
-  add(sum.screw_N, wave(view.track.position_m, view.transmission().lead_m, q.back(), line.real(), line.imag()));
+  add(sum.screw_N, wave(view.track.position_m, view.transmission().lead_m, rate_of_line(q), line.real(), line.imag()));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"amplitude_N", line_amplitude(q)}, {"cycles_per_rev", q.back()}};
+  return {{"amplitude_N", line_amplitude(q)}, {"cycles_per_rev", rate_of_line(q)}};
 }
 
 /// A whole number above two is the motor's: poles and slots.
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q.back() < 2.05 || std::abs(q.back() - std::round(q.back())) > 0.02;
+  return rate_of_line(q) < 2.05 || std::abs(rate_of_line(q) - std::round(rate_of_line(q))) > 0.02;
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ void add_line(const Track& track, std::span<const double> q, Vector& force_N) {
   const std::size_t run = std::min<std::size_t>(track.run, line_runs - 1);
   if (q[2 * run] == 0.0 && q[2 * run + 1] == 0.0) return;
   constexpr Index renewed = 256;  // each turn from the one before it, so that there is no sine a sample
-  const double per_sample = 2.0 * std::numbers::pi * q[8] * track.sample_s;
+  const double per_sample = 2.0 * std::numbers::pi * rate_of_line(q) * track.sample_s;
   const std::complex<double> turn = std::polar(1.0, per_sample), line = line_of_run(q, run);
   std::complex<double> now;
   Vector more(track.size);
@@ -117,6 +117,10 @@ void add_line(const Track& track, std::span<const double> q, Vector& force_N) {
     more[k] = now.imag();
   }
   add(force_N, more);
+}
+
+double rate_of_line(std::span<const double> q) {
+  return q[2 * line_runs];
 }
 
 std::complex<double> line_of_run(std::span<const double> q, std::size_t run) {

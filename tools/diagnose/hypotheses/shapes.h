@@ -31,6 +31,8 @@ namespace feedtwin::tools::diagnosis {
 /// A force that waves with a phase of its own in each of up to four runs: sine and cosine of each run, and how often.
 [[nodiscard]] std::vector<WorkingParameter> line_parameters(const WorkingParameter& often);
 void add_line(const Track& track, std::span<const double> q, Vector& force_N);
+/// How often it waves, cycles a revolution or hertz.
+[[nodiscard]] double rate_of_line(std::span<const double> q);
 /// Its amplitude and phase in a run, see Hypothesis::line_of.
 [[nodiscard]] std::complex<double> line_of_run(std::span<const double> q, std::size_t run);
 /// Has this run a line? Of a run that is not there only what differences left.
