@@ -10,7 +10,6 @@
 
 #include "plant/effects/coupling.h"
 #include "plant/effects/presliding_memory.h"
-#include "plant/effects/process_force.h"
 #include "plant/feed_axis.h"
 #include "tests/support/smooth_axis.h"
 
@@ -105,31 +104,6 @@ TEST(Dynamics, QuadraticDragAndProcessForce) {
            (in_cut ? 20.0 + 12.0 * std::tanh(v / 5e-4) + 30.0 * std::sin(2.0 * test::pi * 70.0 * t + 0.3) : 0.0);
   };
   EXPECT_LT(distance_m(axis, 400, held_Nm, load), 2.0 * count_m);
-}
-
-/// After days in the cut too, where the difference of two times is no measure of an instant.
-TEST(Dynamics, AProcessCutsFromItsStartToItsEnd) {
-  constexpr double start_s = 1e6 + 0.25e-3, end_s = 2e6;
-  const effects::ProcessForce process({test::smooth_axis(), make_axis_model(test::smooth_axis())},
-                                      {"process_force", {20.0, 0.0, 70.0, 0.0, start_s, end_s, 12.0}, {}});
-  const auto load_N = [&](double time_s, double h_s) {
-    return process
-        .load({.position_m = 0.0,
-               .velocity_m_per_s = -0.1,
-               .sign = -1.0,
-               .acceleration_m_per_s2 = 0.0,
-               .torque_Nm = 0.0,
-               .table_load_N = 0.0,
-               .h_s = h_s,
-               .time_s = time_s,
-               .tick_phase_s = 0.0})
-        .force_N;
-  };
-  EXPECT_EQ(load_N(1e6 - 1.0, 1e-3), 0.0);
-  EXPECT_NEAR(load_N(1e6, 1e-3), 0.75 * 8.0, 1e-5);
-  EXPECT_EQ(load_N(1.5e6, 1e-3), 8.0);
-  EXPECT_EQ(load_N(1.5e6, 1e-9), 8.0);
-  EXPECT_EQ(load_N(end_s, 1e-9), 0.0);
 }
 
 TEST(Dynamics, DragWeightAndCableSpring) {
