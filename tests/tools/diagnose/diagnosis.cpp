@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -91,6 +92,17 @@ TEST(Diagnosis, EveryHypothesisIsAnEffectOfThePlantWithTheSameParameterNames) {
       EXPECT_NE(plant::value_in(made, *entry, name), nullptr) << hypothesis.id << "." << name;
       EXPECT_TRUE(std::isfinite(value)) << hypothesis.id << "." << name;
     }
+  }
+}
+
+// A law reads its numbers by their places: what begins a search or a polish has to have them all.
+TEST(Diagnosis, EveryStartOfAHypothesisHoldsAllItsParameters) {
+  for (const auto& hypothesis : tools::diagnosis::hypotheses()) {
+    const auto shaping = std::ranges::count_if(hypothesis.parameters,
+                                               [](const auto& p) { return p.kind != tools::diagnosis::Kind::amplitude; });
+    for (const auto& shape : hypothesis.shapes) EXPECT_EQ(shape.size(), static_cast<std::size_t>(shaping)) << hypothesis.id;
+    for (const auto* starts : {&hypothesis.starts, &hypothesis.closed_loop_starts})
+      for (const auto& start : *starts) EXPECT_EQ(start.size(), hypothesis.parameters.size()) << hypothesis.id;
   }
 }
 

@@ -61,14 +61,15 @@ const std::map<std::string_view, Trial>& trials() {
       {"frictional_lag", {{{"time_constant_s", 0.012}}, {0}, 0.07, false}},
       {"local_friction",
        {{{"height_N", 15.0}, {"centre_m", 0.004}, {"half_width_m", 0.002}, {"on_screw", 1.0}}, {0, 0.0038, 0.002, 1}, 0.08}},
-      {"dwell_breakaway", {{{"relative_rise", 0.4}, {"time_constant_s", 0.06}}, {0, 20.0}, 0.25}},
+      {"dwell_breakaway", {{{"relative_rise", 0.4}, {"time_constant_s", 0.06}}, {0, 20.0, 0}, 0.25}},
       {"regeneration_clipped", {{{"share", 1.0}}, {0}}},
       {"sensor_gain", {{{"torque_sensor_gain", 1.1}, {"force_sensor_gain", 1.0}}, {0, 0, 0}, 0.03, true, true}},
       {"channel_skew", {{{"torque_sensor_delay_s", 3e-3}, {"force_sensor_delay_s", 2e-3}}, {0, 0}}},
       {"torque_saturation", {{{"limit_Nm", 0.7}}, {0, 0.68}}},
       {"floor_vibration", {{{"acceleration_m_per_s2", 2.0}, {"frequency_Hz", 17.03}}, {0, 0, 0, 0, 0, 0, 0, 0, 17.0}}},
       {"hidden_friction_compensation", {{{"torque_Nm", 0.02}, {"speed_m_per_s", 1e-3}}, {0, 1e-3}, 0.06, true, true}},
-      {"process_force", {{{"amplitude_N", 8.0}, {"frequency_Hz", 60.04}}, {0, 0, 0, 0, 0, 0, 0, 0, 60.0}}},
+      {"process_force",
+       {{{"amplitude_N", 8.0}, {"frequency_Hz", 60.04}}, {0, 0, 0, 0, 0, 0, 0, 0, 60.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}},
       {"hard_stop",
        {{{"position_m", 0.0194}, {"direction", 1.0}, {"stiffness_N_per_m", 3e5}, {"damping_Ns_per_m", 2000.0}},
         {0, 0, 0.0193, 1}}},
@@ -149,6 +150,7 @@ Candidate fit_alone(const InverseModel& model, const Whitening& whitening, Candi
 TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
   ASSERT_TRUE(trials().contains(GetParam())) << "no trial of this hypothesis";
   const Trial& trial = trials().at(GetParam());
+  ASSERT_EQ(trial.start.size(), hypothesis(GetParam()).parameters.size());
   auto truth = plant::source_axis(), nominal = truth;
   truth.effects.push_back(setting_of(GetParam(), trial));
   if (!trial.known_numbers) {

@@ -60,7 +60,8 @@ TEST(OwnPhase, OneThatAllRunsShareIsTheUnseenRunsToo) {
 
 TEST(OwnPhase, NearlyAlikeByChanceIsNotShared) {
   const auto line = [](std::initializer_list<double> phases_rad) {
-    Active one{&hypothesis("process_force"), std::vector<double>(2 * line_runs + 1, 0.0)};
+    const Hypothesis& process = hypothesis("process_force");
+    Active one{&process, std::vector<double>(process.parameters.size(), 0.0)};
     std::size_t at = 0;
     for (const double phase_rad : phases_rad) {
       one.q[at++] = 30.0 * std::cos(phase_rad);
