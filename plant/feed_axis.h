@@ -47,6 +47,8 @@ class FeedAxis {
   /// tick. Costs a third of a step, so only where it is asked for. Wait-free.
   [[nodiscard]] ForceSignals force_sensors(const AxisCommand& acting) const noexcept FEEDTWIN_REALTIME;
   [[nodiscard]] AxisEnergy energy() const noexcept FEEDTWIN_REALTIME;
+  /// Work of the motor's torque so far.
+  [[nodiscard]] double input_work_J() const noexcept { return input_work_J_; }
   /// Summed up since the axis was made.
   [[nodiscard]] const AxisLosses<double>& losses() const noexcept { return losses_; }
   [[nodiscard]] std::int64_t clipped_inputs() const noexcept { return clipped_inputs_; }

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "plant/effects/registry.h"
 #include "plant/feed_axis.h"
 #include "tools/config/input_error.h"
+#include "tools/recording/power_meter.h"
 
 namespace feedtwin::tests {
 
@@ -64,6 +66,25 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
     }
   }
   return recording;
+}
+
+void compute_power_from_command(std::vector<tools::Recording>& runs, const plant::AxisParameters& axis) {
+  namespace channel = tools::channel;
+  constexpr std::size_t window = 100;
+  const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
+  for (auto& run : runs) {
+    const auto command_Nm = run.at(channel::torque_cmd_Nm), position_m = run.at(channel::position_m);
+    auto& power_W = run.channels.at(std::string(channel::power_W));
+    std::vector<double> instants(power_W.size(), 0.0);
+    for (std::size_t k = 1; k + 1 < instants.size(); ++k) {
+      const double v = (position_m[k + 1] - position_m[k - 1]) / (2.0 * run.sample_s);
+      const auto own = [v](const auto& by_direction) { return v > 0.0 ? by_direction.pos : by_direction.neg; };
+      instants[k] = axis.motor.electrical_idle_W + own(axis.motor.electrical_linear_Ws_per_m) * std::abs(v) +
+                    own(axis.motor.electrical_quadratic_Ws2_per_m2) * v * v + command_Nm[k] * rad_per_m * v;
+    }
+    instants.front() = instants[1], instants.back() = instants[instants.size() - 2];
+    power_W = tools::as_metered(instants, tools::metered_rows(power_W, window));
+  }
 }
 
 plant::EffectSetting effect(std::string_view id, std::initializer_list<std::pair<std::string_view, double>> values) {

@@ -35,6 +35,10 @@ struct MadeRun {
 [[nodiscard]] tools::Recording make_recording(const plant::AxisParameters& axis, const MadeRun& run,
                                               const controllers::CascadeGains& gains = {});
 
+/// In place of what was measured: instants of the drive's power law (Eq. 11) by the recorded command, as a meter that is
+/// sampled with the controller averages them over 100 ms.
+void compute_power_from_command(std::vector<tools::Recording>& runs, const plant::AxisParameters& axis);
+
 /// An effect of the plant with these numbers, the others at their presets.
 [[nodiscard]] plant::EffectSetting effect(std::string_view id,
                                           std::initializer_list<std::pair<std::string_view, double>> values);

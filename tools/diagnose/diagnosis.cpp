@@ -62,6 +62,7 @@ class Diagnosing {
         fitter_(model_, data_.axis),
         forward_(data_.fit, data_) {
     for (auto& fault : known) result_.setup.push_back(std::move(fault));
+    result_.power_of_command = model_.tracks().front().meter.of_command;
     for (auto& fault : check_meter(model_.tracks().front(), data_.axis)) result_.setup.push_back(std::move(fault));
   }
 
@@ -104,7 +105,9 @@ class Diagnosing {
     keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
     if (same_names(names_then)) return;
     found_.last = screen(fitter_, fit_, found_.whitening);  // what went may have hidden another
+    const auto names_left = fit_.model.effects;
     look_again_at_the_runs();
+    if (!same_names(names_left)) keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
   }
 
   /// Where the motor's friction sets in over a path, what was found without it stood for that path about every reversal.
@@ -131,8 +134,7 @@ class Diagnosing {
   /// With the numbers as the closed loop has them, where it was asked.
   [[nodiscard]] const Candidate& as_settled() const { return settled_ ? settled_->model : fit_.model; }
 
-  /// A name that the closed loop gave may leave the inverse model with numbers that simulate nothing well; by those no other
-  /// name can be judged.
+  /// Numbers of the inverse model beside a name that the closed loop gave may simulate nothing well: no judges of another.
   [[nodiscard]] bool is_far_behind_settled() const {
     constexpr double far = 2.0;
     if (!settled_) return false;
@@ -166,8 +168,7 @@ class Diagnosing {
     auto ways = ways_of(polished.model);
     const std::size_t of_polished = ways.size();
     for (auto& unpolished : ways_of(fit_.model)) ways.push_back(std::move(unpolished));
-    // as the runs go, or beyond the scatter of their stretches likelier: a few rows of a jump may outweigh them in the sum
-    constexpr double surely_deviations = 3.0;
+    constexpr double surely_deviations = 3.0;  // of the stretches: a few rows of a jump may outweigh them in the sum
     const auto likelier =
         compared(likelihood(forward_, extended(polished.model)), likelihood(forward_, extended(fit_.model)));
     if (closest(forward_, ways) >= of_polished && likelier.deviations < surely_deviations) return;

@@ -61,6 +61,10 @@ std::string in_words(const Active& active, const plant::AxisParameters& axis) {
   return fmt::format("{} ({})", active.hypothesis->id, values);
 }
 
+bool rests_on_force(const Hypothesis& hypothesis) {
+  return hypothesis.channel != "scale_position_m" && hypothesis.channel != "power_W";
+}
+
 bool loads_table(const Hypothesis& hypothesis) {
   return hypothesis.component == "guide" && !hypothesis.friction;
 }

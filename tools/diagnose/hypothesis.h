@@ -137,7 +137,8 @@ struct Hypothesis {
   double least_missed_nats = -1e300;
   /// So many, where without it the numbers would be far from nominal; none: as many wherever they are.
   std::optional<double> least_missed_nats_far_off = std::nullopt;
-  bool only_readings = false;  ///< changes what the sensors show and nothing else: only their channels bear it out
+  bool follows_any_law = false;  ///< a smooth change of friction with speed or time, as any other law's mistakes are too
+  bool only_readings = false;    ///< changes what the sensors show and nothing else: only their channels bear it out
   /// The one channel of them that these numbers change; nullptr: either sensor.
   std::string_view (*reading)(std::span<const double> q) = nullptr;
   bool about_reversals = false;  ///< acts there first: its strength counts there too
@@ -212,6 +213,8 @@ struct Active {
 [[nodiscard]] inline bool gives_forces(const Hypothesis& hypothesis) {
   return !hypothesis.friction || hypothesis.forces_too;
 }
+/// Does the force tell of it, rather than scale or power meter?
+[[nodiscard]] bool rests_on_force(const Hypothesis& hypothesis);
 /// Does it load the table with a force or a mass?
 [[nodiscard]] bool loads_table(const Hypothesis& hypothesis);
 /// Is friction another when this one's numbers are others, beside the effects of the model?

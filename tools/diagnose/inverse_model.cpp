@@ -111,7 +111,7 @@ Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, con
     Vector model = base.power_W;
     if (extra.power_W.size() > 0) model += extra.power_W;
     for (const Vector* torque_N : {&extra.drive_N, &extra.metered_drive_N})
-      if (torque_N->size() > 0) model += torque_N->cwiseProduct(track.metered_m_per_s);
+      if (torque_N->size() > 0 && !track.meter.of_command) model += torque_N->cwiseProduct(track.metered_m_per_s);
     return model;
   }
   Vector r = recorded_side(equation, run);

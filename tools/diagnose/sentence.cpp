@@ -125,6 +125,10 @@ std::string summary_of(const Diagnosis& diagnosis) {
         " The motor's friction sets in over about {:.2g} um after each reversal, not at once: so it does in the updated "
         "axis.",
         1e6 * diagnosis.motor_presliding_m);
+  if (diagnosis.power_of_command)
+    text +=
+        " The power is, to a thousandth, what commanded torque and motion make: a figure that the drive computes, which "
+        "tells nothing of what acts between command and shaft.";
   return text;
 }
 

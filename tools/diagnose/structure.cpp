@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "tools/diagnose/taken_up.h"
 #include "tools/linear_systems.h"
@@ -13,10 +14,14 @@ namespace {
 
 constexpr std::size_t folds = 4;
 
+/// Of springs that give way with time: a bellows, a counterbalance cylinder that leaks.
+constexpr std::array relaxation_s{0.1, 0.3, 1.0, 3.0};
+
 /// When and where a row is, and how it came there.
 struct Moment {
   double position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, time_s;
-  std::vector<double> past;  ///< accelerations before
+  std::vector<double> past;                            ///< accelerations before
+  std::array<double, relaxation_s.size()> strain_m{};  ///< of such springs
   std::size_t run, fold;
   Index sample;
 };
@@ -28,11 +33,24 @@ bool of_force(const Equation& equation) {
   return !equation.slip && !equation.power;
 }
 
+/// s' = v - s / T, by relaxation time: of a Maxwell element that has come to rest before the run.
+std::vector<std::array<double, relaxation_s.size()>> strains_m(const Track& track) {
+  std::vector<std::array<double, relaxation_s.size()>> all(static_cast<std::size_t>(track.size));
+  for (std::size_t k = 1; k < all.size(); ++k)
+    for (std::size_t i = 0; i < relaxation_s.size(); ++i) {
+      const auto at = static_cast<Index>(k);
+      all[k][i] =
+          (all[k - 1][i] + track.position_m[at] - track.position_m[at - 1]) / (1.0 + track.sample_s / relaxation_s[i]);
+    }
+  return all;
+}
+
 /// The settled rows of one run's force equations, which all have the same.
 void add_moments(const InverseModel& model, const Segment& segment, std::vector<Moment>& all, std::vector<Index>& rows) {
   const Track& track = model.tracks()[segment.run];
   const Index step = std::max<Index>(1, std::lround(past_step_s / track.sample_s));
   const auto acceleration = [&track](Index k) { return slow_acceleration_m_per_s2(track, k); };
+  const auto strains = strains_m(track);
   for (Index i = 0; i < segment.size; ++i) {
     if (!model.settled(segment.start + i)) continue;
     const Index k = model.sample_of(segment, i);
@@ -43,6 +61,7 @@ void add_moments(const InverseModel& model, const Segment& segment, std::vector<
              track.since_reversal_s[k],
              t,
              {},
+             strains[static_cast<std::size_t>(k)],
              segment.run,
              (static_cast<std::size_t>(t / stretch_s) + segment.run) % folds,
              k};
@@ -63,11 +82,14 @@ void hats(double x, double low, double high, Index count, double weight, Eigen::
 
 /// How many columns each part of the additive model has; the parts stand in this order.
 constexpr Index places = 40, speeds = 12, times = 8, pulls = 10;
-constexpr std::array widths{3 * places, 2 * speeds, 2 * times, 2 * pulls, Index{past_steps}};
-enum Part : unsigned { place = 1, speed = 2, reversal = 4, pull = 8, past = 16 };
+constexpr std::array widths{3 * places, 2 * speeds, 2 * times, 2 * pulls, Index{past_steps}, Index{relaxation_s.size()}};
+enum Part : unsigned { place = 1, speed = 2, reversal = 4, pull = 8, past = 16, relaxing = 32 };
 /// What is asked: a part that has nothing to say spoils what the others say on unseen folds.
-constexpr std::array<unsigned, 5> asked{place | speed | reversal | pull | past, place, speed | reversal | pull | past,
-                                        pull | past, past};
+/// The last ones only when it is asked whether a model leaves structure over, not for the colour of the noise.
+constexpr std::size_t ways_of_colour = 5;
+constexpr std::array<unsigned, 7> asked{
+    place | speed | reversal | pull | past,           place, speed | reversal | pull | past, pull | past, past, relaxing,
+    place | speed | reversal | pull | past | relaxing};
 
 std::vector<Index> columns_of(unsigned parts) {
   std::vector<Index> columns;
@@ -102,7 +124,8 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
     both_ways(std::sqrt(std::abs(m.velocity_m_per_s) / fastest), 0.0, 1.0, speeds);
     both_ways(std::log(std::clamp(m.since_reversal_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
     both_ways(std::cbrt(m.acceleration_m_per_s2 / hardest), -1.0, 1.0, pulls);
-    for (int j = 0; j < past_steps; ++j) row[from + j] = m.past[static_cast<std::size_t>(j)] / hardest;
+    for (int j = 0; j < past_steps; ++j) row[from++] = m.past[static_cast<std::size_t>(j)] / hardest;
+    for (const double strain_m : m.strain_m) row[from++] = strain_m / (high - low + 1e-12);
     rows.col(static_cast<Index>(k)) = row;
   }
   return rows;
@@ -155,12 +178,12 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   }
 }
 
-Vector RepeatableStructure::additive(const Vector& y) const {
+Vector RepeatableStructure::additive(const Vector& y, std::size_t ways) const {
   std::vector<Vector> right;
   for (const auto& own : members_) right.push_back(rows_(Eigen::all, own) * y(own));
   Vector best;
   double least = 1e300;
-  for (const auto& way : ways_) {
+  for (const auto& way : std::span(ways_).first(ways)) {
     Vector predicted = Vector::Zero(y.size());
     for (std::size_t f = 0; f < members_.size(); ++f) {
       Vector others = Vector::Zero(rows_.rows()), weight = others;
@@ -176,8 +199,8 @@ Vector RepeatableStructure::additive(const Vector& y) const {
   return best;
 }
 
-Vector RepeatableStructure::unseen(const Vector& y) const {
-  const Vector alone = additive(y), beats = beat_->unseen(y), beside = beats + additive(y - beats);
+Vector RepeatableStructure::unseen(const Vector& y, std::size_t ways) const {
+  const Vector alone = additive(y, ways), beats = beat_->unseen(y), beside = beats + additive(y - beats, ways);
   const Vector* best = &alone;
   for (const Vector* other : {&beats, &beside})
     if ((y - *other).squaredNorm() < (y - *best).squaredNorm()) best = other;
@@ -200,7 +223,7 @@ Vector RepeatableStructure::part_of(const Vector& residual) const {
   if (rows_.cols() == 0) return part;
   for (std::size_t e = 0; e < model_.equations().size(); ++e) {
     if (!of_force(model_.equations()[e])) continue;
-    const Vector y = gathered(residual, e), predicted = unseen(y);
+    const Vector y = gathered(residual, e), predicted = unseen(y, ways_of_colour);
     if ((y - predicted).squaredNorm() > y.squaredNorm()) continue;  // nothing that repeats
     Index at = 0;
     for (std::size_t run = 0; run < places_.size(); ++run)
@@ -220,9 +243,9 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
     if (of_force(model_.equations()[e])) y += gathered(residual, e);
   y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm();
-  double after = (y - unseen(y)).squaredNorm();
+  double after = (y - unseen(y, ways_.size())).squaredNorm();
   const Vector rings = ringing_->unseen(y), rest = y - rings;
-  const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest)).squaredNorm();
+  const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest, ways_.size())).squaredNorm();
   if (rung > 0.0 && std::min(beside, before - rung) < after) {
     after = std::min(beside, before - rung);
     if (rung > 0.5 * (before - after)) found.rings = ringing_->mode(y);

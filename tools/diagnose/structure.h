@@ -1,7 +1,7 @@
 #pragma once
 // Is what a model leaves over still structure? A general additive model of the force remainder - tables over place, speed,
-// time since reversal and acceleration, speed-weighted place, the acceleration's past - friction that beats and a part that
-// rings, learned on three quarters of the seconds and judged on the fourth, in turn.
+// time since reversal and acceleration, speed-weighted place, the acceleration's past, springs that give way with time -
+// friction that beats and a part that rings, learned on three quarters of the seconds and judged on the fourth, in turn.
 
 #include <Eigen/Cholesky>
 #include <optional>
@@ -32,8 +32,9 @@ class RepeatableStructure {
   [[nodiscard]] Vector part_of(const Vector& residual) const;
 
  private:
-  [[nodiscard]] Vector unseen(const Vector& y) const;
-  [[nodiscard]] Vector additive(const Vector& y) const;
+  /// By the best of the first so many ways.
+  [[nodiscard]] Vector unseen(const Vector& y, std::size_t ways) const;
+  [[nodiscard]] Vector additive(const Vector& y, std::size_t ways) const;
   [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
 
   const InverseModel& model_;

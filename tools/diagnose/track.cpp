@@ -188,8 +188,10 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   if (recording.has(channel::force_sensor_N))
     track.force_sensor_N = convolved(as_vector(recording.at(channel::force_sensor_N)), triangle);
   track.half_step_N = convolved(track.held_N, triangle) - track.command_N;
-  if (recording.has(channel::power_W))
+  if (recording.has(channel::power_W)) {
     track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h, static_cast<Index>(recording.meter.delay));
+    track.meter.of_command = recording.meter.of_command;
+  }
   track.metered_m_per_s = Vector::Zero(n);
   track.metered_m_per_s.head(n - 1) = (x.tail(n - 1) - x.head(n - 1)) / h;
   track.metered_at_m = recording.meter.instants ? x : Vector(x + 0.5 * h * track.metered_m_per_s);

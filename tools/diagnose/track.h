@@ -24,8 +24,9 @@ inline constexpr int path_substeps = 4;
 
 /// Readings of a power meter that shows means over windows.
 struct MeterWindows {
-  Index length = 0;   ///< samples a window
-  bool held = false;  ///< the meter's own; otherwise means that we took
+  Index length = 0;         ///< samples a window
+  bool held = false;        ///< the meter's own; otherwise means that we took
+  bool of_command = false;  ///< computed from the command: nothing that acts between it and the shaft shows
   std::vector<Index> starts;
   std::vector<double> power_W;
 };

@@ -18,7 +18,4 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                                         const std::function<void(std::string_view)>& progress);
 
-/// Does the force tell of it, rather than scale or power meter?
-[[nodiscard]] bool rests_on_force(const Hypothesis& h);
-
 }  // namespace feedtwin::tools::diagnosis

@@ -134,6 +134,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
     channel->resize(view.samples);
   for (auto* channel : {&out.torque_sensor_Nm, &out.force_sensor_N}) channel->resize(sensors ? view.samples : 0);
   const Terms coefficients = coefficients_of(axis.parameters().motor);
+  const bool of_command = run.recording().meter.of_command;
   for (std::size_t i = 0; i < view.samples; ++i) {
     const double shown_m = axis.shown_position_m() - position_offset_m;
     out.position_m[i] = shown_m;
@@ -149,11 +150,17 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
     }
     const double start_m = axis.signals().position_m, start_m_per_s = axis.signals().velocity_m_per_s;
     const auto before = terms != nullptr ? axis.losses() : plant::AxisLosses<double>{};
+    const double worked_J = axis.input_work_J();
     const auto& after = axis.step(command, view.tick_s);
     out.power_W[i] = after.power_W;
-    const double force_N = after.torque_Nm * transmission, mean_m_per_s = (after.position_m - start_m) / view.tick_s;
+    double force_N = after.torque_Nm * transmission;
+    const double mean_m_per_s = (after.position_m - start_m) / view.tick_s;
+    if (of_command) {
+      force_N = command.torque_Nm * transmission;
+      out.power_W[i] += force_N * mean_m_per_s - (axis.input_work_J() - worked_J) / view.tick_s;
+    }
     const Terms at_start = terms_at(start_m_per_s), at_mean = terms_at(mean_m_per_s);
-    out.instant_power_W[i] = after.power_W + (product(coefficients, at_start) + force_N * start_m_per_s) -
+    out.instant_power_W[i] = out.power_W[i] + (product(coefficients, at_start) + force_N * start_m_per_s) -
                              (product(coefficients, at_mean) + force_N * mean_m_per_s);
     if (terms == nullptr) continue;
     Terms& mean = terms->mean.emplace_back(mean_terms(before, axis.losses(), view.tick_s));

@@ -45,10 +45,15 @@ double rms_of(std::span<const double> values) {
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 
-/// Sum of squares of what the first `asked` laws leave over of the readings, each by its own error, however large each law
-/// is; too few readings: nothing.
-double unexplained(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
-                   const plant::AxisParameters& axis) {
+/// Sums of squares of the readings, each by its own error, and of what laws leave over of them; how large each law is.
+struct Explained {
+  double squares = 0.0, left = 0.0;
+  Eigen::Matrix<double, laws, 1> size = Eigen::Matrix<double, laws, 1>::Zero();
+};
+
+/// By the first `asked` laws, however large each is; too few readings: nothing.
+Explained explained(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
+                    const plant::AxisParameters& axis) {
   constexpr double least_reading = 0.2;  // of the rms
   const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
   Eigen::Matrix<double, laws, laws> normal = Eigen::Matrix<double, laws, laws>::Zero();
@@ -83,12 +88,33 @@ double unexplained(std::span<const Recording> recordings, MeterHabit habit, int 
       ++readings;
     }
   }
-  if (readings < 3 * laws) return 0.0;
+  if (readings < 3 * laws) return {};
   const Eigen::Matrix<double, laws, 1> size = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Eigen::Matrix<double, laws, laws> scaled =
       size.cwiseInverse().asDiagonal() * normal * size.cwiseInverse().asDiagonal();
   const Eigen::Matrix<double, laws, 1> found = least_squares(scaled, right.cwiseQuotient(size)).cwiseQuotient(size);
-  return std::max(0.0, squares - 2.0 * found.dot(right) + found.dot(normal * found));
+  return {squares, std::max(0.0, squares - 2.0 * found.dot(right) + found.dot(normal * found)), found};
+}
+
+/// A drive may report what it computes from its command: that is nobody's measurement, and no effect between command and
+/// shaft shows in it. So it is where the recorded command and motion make the readings to a thousandth, by numbers that are
+/// the nominal ones: what a true meter would have shown of a constant torque, or of one that opposes the motion, those
+/// numbers would have to hold.
+bool computed_from_command(std::span<const Recording> recordings, MeterHabit habit, const plant::AxisParameters& axis) {
+  constexpr double most_left = 1e-3, most_off_work = 5e-3, most_off_nominal = 0.25;
+  const Explained by_laws = explained(recordings, habit, drive_laws, Errors::alike, axis);
+  if (!(by_laws.squares > 0.0) || by_laws.left > most_left * most_left * by_laws.squares) return false;
+  const auto is_near = [](double found, double nominal, double share) {
+    return std::abs(found - nominal) <= share * std::abs(nominal);
+  };
+  const auto& linear = axis.motor.electrical_linear_Ws_per_m;
+  return is_near(by_laws.size[drive_laws - 2], 1.0, most_off_work) &&
+         is_near(by_laws.size[1], linear.pos, most_off_nominal) && is_near(by_laws.size[2], linear.neg, most_off_nominal);
+}
+
+double unexplained(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
+                   const plant::AxisParameters& axis) {
+  return explained(recordings, habit, asked, errors, axis).left;
 }
 
 }  // namespace
@@ -132,7 +158,9 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
   return meter;
 }
 
-MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
+namespace {
+
+MeterHabit habit_in_time(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
   constexpr double clearly = 0.6;  // of the squares; a lagging current loop alone makes 0.66 (practice case p08)
   // with a lag among the laws the practice cases, which are of instants, have 0.98 and more; where a ripple that is no law
   // yet hides the difference, means over time had 0.87
@@ -145,6 +173,14 @@ MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisP
         return late;
   const double over_time = unexplained(recordings, all_time, laws, Errors::alike, axis);
   return over_time < likely * unexplained(recordings, instants, laws, Errors::alike, axis) ? all_time : instants;
+}
+
+}  // namespace
+
+MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
+  MeterHabit habit = habit_in_time(recordings, axis);
+  habit.of_command = computed_from_command(recordings, habit, axis);
+  return habit;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

@@ -34,6 +34,21 @@ TEST(NatsToStay, AWeightNeedsMoreWhereTheNumbersAreClearlyBetterWithout) {
   EXPECT_DOUBLE_EQ(nats_to_stay(found("gravity"), -23.0), 600.0);
 }
 
+TEST(NatsToStay, WhatNumbersCouldDoNeedsMoreThanItPutsThemOff) {
+  for (const char* id : {"gravity", "torque_offset", "payload"}) {
+    EXPECT_DOUBLE_EQ(nats_to_stay(found(id), -930.0), 1860.0) << id;
+    EXPECT_LE(nats_to_stay(found(id), -2.0), 150.0) << id;
+  }
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), -930.0), -10.0);
+}
+
+// A lag of the current loop that was missed by 86100 nats left 633 of a warm-up that was none.
+TEST(NatsBeside, AStrongNameExcusesTheWeakOneThatAnySmoothChangeIs) {
+  EXPECT_GT(nats_beside(hypothesis("thermal_friction"), 86100.0), 633.0);
+  EXPECT_LT(nats_beside(hypothesis("thermal_friction"), 13538.0), 736.0);  // a true one beside cogging
+  EXPECT_LT(nats_beside(hypothesis("copper_loss"), 86100.0), 0.0);
+}
+
 TEST(NatsToStay, ACompensationNeedsFewerWhereTheNumbersWouldBeFarOff) {
   EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), 0.0), 5e4);
   EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), 190.0), 6000.0);

@@ -9,12 +9,11 @@
 namespace feedtwin::tools {
 namespace {
 
-std::vector<Recording> runs_of_the_plant() {
+std::vector<Recording> runs_of_the_plant(const plant::AxisParameters& axis = plant::source_axis()) {
   std::vector<Recording> runs;
   for (const double speed : {0.02, 0.06})
     runs.push_back(tests::make_recording(
-        plant::source_axis(),
-        {.motion = "sine", .settings = {.amplitude_m = 0.02, .speed_m_per_s = speed}, .duration_s = 6.0}));
+        axis, {.motion = "sine", .settings = {.amplitude_m = 0.02, .speed_m_per_s = speed}, .duration_s = 6.0}));
   return runs;
 }
 
@@ -36,24 +35,25 @@ TEST(MeterHabit, IsToldBesideARipple) {
   EXPECT_FALSE(meter_habit(runs, axis).instants);
 }
 
-/// Instants of the drive's power law (Eq. 11), as a meter that is sampled with the controller averages them over 100 ms.
 TEST(MeterHabit, OfInstantsIsTold) {
   auto runs = runs_of_the_plant();
-  for (auto& run : runs) {
-    const auto command = run.at(channel::torque_cmd_Nm), position = run.at(channel::position_m);
-    auto& power_W = run.channels.at(std::string(channel::power_W));
-    std::vector<double> instants(power_W.size(), 0.0);
-    const auto& motor = plant::source_axis().motor;
-    for (std::size_t k = 1; k + 1 < instants.size(); ++k) {
-      const double v = (position[k + 1] - position[k - 1]) / 2e-3, force_N = command[k] * 2.0 * M_PI / 0.005;
-      const auto own = [v](const auto& by_direction) { return v > 0.0 ? by_direction.pos : by_direction.neg; };
-      instants[k] = motor.electrical_idle_W + own(motor.electrical_linear_Ws_per_m) * std::abs(v) +
-                    own(motor.electrical_quadratic_Ws2_per_m2) * v * v + force_N * v;
-    }
-    const MeteredPower meter = metered_rows(power_W, 100);
-    power_W = as_metered(instants, meter);
-  }
+  tests::compute_power_from_command(runs, plant::source_axis());
   EXPECT_TRUE(meter_habit(runs, plant::source_axis()).instants);
+}
+
+// What acts between command and shaft shows in a measured power, and never in one that is computed from the command.
+TEST(MeterHabit, WhatTheDriveComputesFromItsCommandIsTold) {
+  for (const auto& acts : {tests::effect("torque_ripple", {{"relative_amplitude", 0.05}, {"cycles_per_rev", 2.0}}),
+                           tests::effect("torque_gain_error", {{"relative_error", -0.05}}),
+                           tests::effect("torque_offset", {{"offset_Nm", 0.02}}),
+                           tests::effect("current_loop_lag", {{"time_constant_s", 3e-3}})}) {
+    auto axis = plant::source_axis();
+    axis.effects = {acts};
+    auto runs = runs_of_the_plant(axis);
+    EXPECT_FALSE(meter_habit(runs, plant::source_axis()).of_command) << acts.id;
+    tests::compute_power_from_command(runs, plant::source_axis());
+    EXPECT_TRUE(meter_habit(runs, plant::source_axis()).of_command) << acts.id;
+  }
 }
 
 void read_a_row_later(std::vector<Recording>& runs) {

@@ -24,4 +24,8 @@ inline constexpr double far_from_nominal = 60.0;
 /// @param farther from nominal the numbers are without it, squared tolerances
 [[nodiscard]] double nats_to_stay(const Found& named, double farther = 0.0);
 
+/// Beside the name that is missed most: no law here is that of the machine to the last per cent, and what a strong one
+/// leaves over looks like a weak one that any smooth change of friction is.
+[[nodiscard]] double nats_beside(const Hypothesis& h, double most_missed_nats);
+
 }  // namespace feedtwin::tools::diagnosis

@@ -51,6 +51,7 @@ Hypothesis friction_drift() {
 
           // beside a real contact's friction false ones were missed by 3 and 50 nats, right ones by 709 and more
           .least_missed_nats = 150.0,
+          .follows_any_law = true,
           .confused_with = {"thermal_friction"},
           .state = "initial_change",
           .first_state = first_state,

@@ -56,6 +56,7 @@ Hypothesis thermal_friction() {
               "work",
 
           .least_missed_nats = 150.0,  // right ones 478 and more
+          .follows_any_law = true,
           .confused_with = {"friction_drift"},
           .state = "initial_reduction",
           .first_state = first_state,

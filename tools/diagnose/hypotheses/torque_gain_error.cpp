@@ -13,7 +13,8 @@ constexpr double most = 0.25;
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   // without a sensor behind the motor, and without a power meter, every friction number takes it up
-  if (track.torque_sensor_N.size() == 0 && track.force_sensor_N.size() == 0 && track.meter.starts.empty()) return;
+  const bool metered = !track.meter.starts.empty() && !track.meter.of_command;
+  if (track.torque_sensor_N.size() == 0 && track.force_sensor_N.size() == 0 && !metered) return;
   add(sum.drive_N, q[0] * track.command_N);
   add(sum.metered_drive_N, q[0] * (track.held_N - track.command_N));
 }
