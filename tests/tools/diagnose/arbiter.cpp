@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/tools/diagnose/cogged.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
@@ -43,6 +45,23 @@ TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
   const Cogged made;
   EXPECT_EQ(settled(made, {&hypothesis("torque_ripple"), {0.0, 0.0, 8.0}}), "cogging");
   EXPECT_EQ(settled(made, {&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
+}
+
+TEST(Arbiter, ARivalThatSpoilsAChannelTakesNoPlace) {
+  auto truth = plant::source_axis();
+  truth.effects.push_back(tests::effect("backlash", {{"gap_m", 8e-6}}));
+  tools::Case data;
+  data.axis = plant::source_axis();
+  data.fit.push_back(tests::make_recording(truth, {.motion = "triangle",
+                                                   .settings = {.amplitude_m = 0.01, .speed_m_per_s = 0.02},
+                                                   .duration_s = 3.0,
+                                                   .scale_at_table = true}));
+  const ForwardModel forward(data.fit, data);
+  const Candidate gap{data.axis, {{&hypothesis("backlash"), {8e-6, 0.0, std::log(2e3)}}}},
+      yields{data.axis, {{&hypothesis("screw_compliance"), {1e-8, std::log(2e3)}}}};
+  EXPECT_TRUE(spoils_a_channel(forward, yields, gap));
+  EXPECT_FALSE(spoils_a_channel(forward, gap, gap));
+  EXPECT_FALSE(spoils_a_channel(forward, gap, yields));
 }
 
 /// Runs with a delay of the command, and what the arbiter says of it.

@@ -39,6 +39,9 @@ TEST(NatsToStay, WhatNumbersCouldDoNeedsMoreThanItPutsThemOff) {
     EXPECT_DOUBLE_EQ(nats_to_stay(found(id), -930.0), 1860.0) << id;
     EXPECT_LE(nats_to_stay(found(id), -2.0), 150.0) << id;
   }
+  Found explains_most = found("torque_offset");
+  explains_most.error_ratio = 5.02;
+  EXPECT_DOUBLE_EQ(nats_to_stay(explains_most, -930.0), 1860.0);
   EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), -930.0), -10.0);
 }
 

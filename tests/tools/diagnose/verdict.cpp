@@ -34,7 +34,7 @@ Weighed weighed(double spring_N_per_m) {
 }
 
 TEST(BeyondTheCatalogue, ALittleStructureIsUnknownWhereNothingIsNamed) {
-  const auto little = weighed(50.0);
+  const auto little = weighed(46.0);
   ASSERT_GT(little.structure.structured_N(), 0.2);
   ASSERT_LT(little.structure.structured_N(), 0.3);
   EXPECT_TRUE(little.with_nothing_named);
@@ -76,7 +76,7 @@ bool unknown_with_told(double told_N, double error_ratio = 1.5) {
 
 TEST(BeyondTheCatalogue, ANameThatEveryFoldBearsOutStaysUnlessItTakesOnlyABite) {
   EXPECT_FALSE(unknown_with_told(40.0));
-  EXPECT_FALSE(unknown_with_told(30.0));
+  EXPECT_TRUE(unknown_with_told(30.0)) << "a quarter of what was there is left";
   EXPECT_TRUE(unknown_with_told(15.0));
   EXPECT_TRUE(unknown_with_told(3.0));
   EXPECT_FALSE(unknown_with_told(15.0, 9.0)) << "most of what the runs are off by";

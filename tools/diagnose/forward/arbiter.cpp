@@ -12,18 +12,16 @@ namespace {
 /// A rival that the inverse model finds this much worse, as a share of what the named one brings, is not simulated.
 constexpr double hopeless = 0.5;
 
-/// Does the rival leave a channel far worse than the named one does? Then the sum over all channels is another's doing: a
-/// screw's compliance was 31634 nats likelier than the gap that was there, and four times as far off on the scale.
-bool spoils_a_channel(const ForwardModel& forward, const Ruling& rival, const Ruling& named) {
+}  // namespace
+
+bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named) {
   constexpr double far_worse = 2.0;
-  const Nrmse by_rival = forward.nrmse(extended(rival.model)), floor = forward.noise_floor(extended(named.fit.model)),
-              by_named = forward.nrmse(extended(named.fit.model));
+  const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named)),
+              floor = forward.noise_floor(extended(named));
   return std::ranges::any_of(by_rival, [&](const auto& channel) {
     return channel.second > far_worse * std::max(by_named.at(channel.first), floor.at(channel.first));
   });
 }
-
-}  // namespace
 
 bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e,
                         std::vector<const Hypothesis*>& beaten) const {
@@ -57,7 +55,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
                        std::copysign(difference.deviations, better) == difference.deviations &&
                        std::abs(difference.deviations) > clearly_deviations;
     if (!clear) entry->rivals.push_back(score.hypothesis);
-    if (!clear || rival.value < now.value || spoils_a_channel(forward_, rival, now)) continue;
+    if (!clear || rival.value < now.value || spoils_a_channel(forward_, rival.model, now.fit.model)) continue;
     beaten.push_back(named);
     entry->effect = rival.model.effects[e];
     entry->rivals.clear();

@@ -112,9 +112,9 @@ double nats_to_stay(const Found& named, double farther) {
       farther > far_from_nominal ? h.least_missed_nats_far_off.value_or(h.least_missed_nats) : h.least_missed_nats;
   if (farther < (h.told_by_runs_nats ? 0.0 : h.number_of_the_model ? -clearly_nearer : -1e300))
     least *= where_it_puts_them_off;
+  if (named.error_ratio > explains_most_ratio) least = std::min(least, enough_of_what_explains_most);
   if ((h.told_by_runs_nats || h.number_of_the_model) && farther < -far_nearer)
     least = std::max(least, -times_as_many * farther);
-  if (named.error_ratio > explains_most_ratio) least = std::min(least, enough_of_what_explains_most);
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);
 }
 
