@@ -12,6 +12,9 @@ namespace {
 
 // of a table: to be a verdict; to be used (one of 0.095 left a held-out run's power 1.18 times as far off)
 constexpr double smallest_share_unseen = 0.35, smallest_share_of_use = 0.1;
+// since the reversal a contact of many elements made 0.41 where nothing was hidden, and outside the catalogue none needed
+// less
+constexpr double smallest_share_since_reversal = 0.5;
 constexpr double smallest_remainder_N = 0.5;  // that makes a verdict, as any strength; a table is of use from any
 // less will do where that share of it is as large a force, over place or speed: there 74 made cases with nothing hidden had
 // at most 0.05 of what was left, and 0.1 N of it; a bowl of viscous friction that was missed 0.095 and 0.7 N. Since the
@@ -31,8 +34,10 @@ Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResul
 
 bool repeats(const Learned& learned) {
   const double table_N = std::sqrt(std::max(0.0, learned.share_unseen)) * learned.remainder_N;
-  return (learned.share_unseen > smallest_share_unseen && learned.remainder_N > smallest_remainder_N) ||
-         (learned.axis != Where::reversal && learned.share_unseen > lesser_share_unseen && table_N > smallest_table_N);
+  const bool since_reversal = learned.axis == Where::reversal;
+  const double smallest_share = since_reversal ? smallest_share_since_reversal : smallest_share_unseen;
+  return (learned.share_unseen > smallest_share && learned.remainder_N > smallest_remainder_N) ||
+         (!since_reversal && learned.share_unseen > lesser_share_unseen && table_N > smallest_table_N);
 }
 
 void tell_what_rings(const Structure& left, Learned& told) {
