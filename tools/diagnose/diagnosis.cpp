@@ -68,6 +68,7 @@ class Diagnosing {
 
   Diagnosis run() {
     explain();
+    result_.cut_short = forward_.spent();
     polish_numbers();
     tell();
     tell_what_is_unknown();
@@ -192,8 +193,7 @@ class Diagnosing {
     tell_as_one_lead(result_);
     tell_as_one_wave(result_);
     tell_as_one_change(result_);
-    const Track& track = model_.tracks().front();
-    tell_as_one_growth(result_, static_cast<double>(track.size) * track.sample_s);
+    tell_as_one_growth(result_, data_.fit.front().duration_s());
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
       result_.effects.push_back(std::move(*difference));
     if (!unknown_) tell_load(result_, fitter_, fit_, covariance_);

@@ -125,6 +125,8 @@ std::string summary_of(const Diagnosis& diagnosis) {
         " The motor's friction sets in over about {:.2g} um after each reversal, not at once: so it does in the updated "
         "axis.",
         1e6 * diagnosis.motor_presliding_m);
+  if (diagnosis.cut_short)
+    text += " The closed loop had then simulated what a minute allows: not all that could be asked was asked.";
   if (diagnosis.power_of_command)
     text +=
         " The power is, to a thousandth, what commanded torque and motion make: a figure that the drive computes, which "

@@ -244,6 +244,7 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
   y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm();
   double after = (y - unseen(y, ways_.size())).squaredNorm();
+  if (before > 0.0) found.gives_way = std::max(0.0, (y - unseen(y, ways_of_colour)).squaredNorm() - after) / before;
   const Vector rings = ringing_->unseen(y), rest = y - rings;
   const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest, ways_.size())).squaredNorm();
   if (rung > 0.0 && std::min(beside, before - rung) < after) {

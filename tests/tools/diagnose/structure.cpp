@@ -87,6 +87,7 @@ TEST_F(Runs, ASpringThatGivesWayIsPredictedThoughNoPlaceHasItsForce) {
   const Vector gives_way = rows_of([&](const Track& t, Index k) { return force_N[t.run][static_cast<std::size_t>(k)]; });
   const auto found = structure.remaining(gives_way);
   EXPECT_GT(found.share, 0.85);
+  EXPECT_GT(found.gives_way, 0.1);
 }
 
 TEST_F(Runs, ABeatIsFoundBelowTheNoiseWithItsPhaseInEachRun) {

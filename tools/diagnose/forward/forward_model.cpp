@@ -106,6 +106,7 @@ void ForwardModel::simulate_alike(const ClosedLoopRun& run, const std::vector<pl
   const bool sensors = recording.has(channel::torque_sensor_Nm) || recording.has(channel::force_sensor_N);
   ElectricalTerms terms;
   Simulated made = simulate_closed_loop(run, axis, 0.0, sensors, alike.size() > 1 ? &terms : nullptr);
+  *simulated_samples_ += recording.size();
   for (const std::size_t i : alike)
     if (i != alike.front()) all[i] = with_electrical(made, terms, moved.motor, axes[i].motor);
   all[alike.front()] = std::move(made);

@@ -2,6 +2,8 @@
 // The second engine: runs simulated forward in closed loop by the plant that the server runs, with the case's controller or
 // a stand-in that tracks the recorded motion. The torque command, the sensors and the power are what tells.
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -35,6 +37,11 @@ class ForwardModel {
   /// sensors' own white noise. From simulating what it would have recorded.
   [[nodiscard]] Nrmse noise_floor(const AxisByRun& axis) const;
 
+  /// Samples of runs that were simulated so far: what the questions have cost, the same on every machine.
+  [[nodiscard]] std::uint64_t simulated_samples() const { return *simulated_samples_; }
+  /// So many that the rest takes a minute full on two cores: what could still be asked is left out then.
+  [[nodiscard]] bool spent() const { return simulated_samples() > most_samples; }
+
   /// What was ruled on these runs before.
   [[nodiscard]] RulingsBefore& before() const { return *before_; }
 
@@ -44,9 +51,11 @@ class ForwardModel {
                       const std::vector<std::size_t>& alike, std::vector<Simulated>& all) const;
 
   const Case* data_;
+  static constexpr std::uint64_t most_samples = 50'000'000;
   double meter_share_ = 0.0;
   std::vector<ClosedLoopRun> runs_;
   std::shared_ptr<RulingsBefore> before_;
+  std::shared_ptr<std::atomic<std::uint64_t>> simulated_samples_ = std::make_shared<std::atomic<std::uint64_t>>(0);
 };
 
 }  // namespace feedtwin::tools::diagnosis

@@ -132,7 +132,7 @@ void keep_missed(const ForwardModel& forward, const Fitter& fitter, SearchResult
     auto least = asked.least_missed(found, fit, settled);
     if (!least) return;
     const bool beside_less = settled.value > value + of_consequence_nats;  // asked before the others did better
-    if (beside_less && !least->cannot_be && repeats++ < most_repeats) continue;
+    if (beside_less && !least->cannot_be && repeats++ < most_repeats && !forward.spent()) continue;
     progress(fmt::format("closed loop: {} is not missed", least->hypothesis->id));
     std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == least->hypothesis; });
     settled = std::move(least->rest);

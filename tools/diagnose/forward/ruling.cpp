@@ -140,7 +140,7 @@ Polished polish_settled(const std::optional<Ruling>& settled, const Candidate& o
 
 void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitter& fitter) {
   constexpr int most_rounds = 2;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_rounds && !forward.spent(); ++round) {
     Ruling &behind = one.value < other.value ? one : other, &ahead = one.value < other.value ? other : one;
     const Candidate beside = with_numbers_of(ahead.model, behind.model);
     const bool better_beside = likelihood(forward, extended(beside)).total() > behind.likelihood.total();

@@ -56,7 +56,7 @@ class SecondLook {
   bool look(SearchResult& found, Fit& fit, std::optional<Ruling>& settled) {
     const auto asked = questions(found.last, fit.model);
     const Candidate& model = settled ? settled->model : fit.model;
-    if (asked.empty()) return false;
+    if (asked.empty() || forward_.spent()) return false;
     floor_ = forward_.noise_floor(extended(model));
     if (!is_off(forward_.nrmse(extended(model)))) return false;
     settled =
@@ -66,7 +66,9 @@ class SecondLook {
     if (!is_off(errors_)) return false;
     std::vector<Answer> answers;
     for (const auto& question : asked)
-      if (auto one = answer(question, *settled, shared_nats(answers, *settled), found.whitening, fit))
+      if (forward_.spent()) {
+        progress_(fmt::format("closed loop: {} is not asked about, the minute is spent", question.score.hypothesis->id));
+      } else if (auto one = answer(question, *settled, shared_nats(answers, *settled), found.whitening, fit))
         answers.push_back(std::move(*one));
     std::ranges::stable_sort(answers, std::greater{}, [](const Answer& a) { return a.ruling.value; });
     auto best = std::ranges::find(answers, true, &Answer::enough);
