@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tools/diagnose/by_direction.h"
-#include "tools/diagnose/command_jump.h"
 #include "tools/diagnose/denied.h"
 #include "tools/diagnose/forward/arbiter.h"
 #include "tools/diagnose/forward/closest.h"
@@ -24,6 +23,7 @@
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/lead_by_torque.h"
+#include "tools/diagnose/mended_case.h"
 #include "tools/diagnose/motor_friction.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/payload_in_mass.h"
@@ -37,26 +37,13 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-Case mended(Case data, Diagnosis& result, const std::function<void(std::string_view)>& progress) {
-  result.setup = mend_setup(data);
-  for (const auto& fault : result.setup) progress(fault.sentence);
-  progress("following friction along " + std::to_string(data.fit.size()) + " runs");
-  return data;
-}
-
-double shown_jump_share(const Case& data, const std::function<void(std::string_view)>& progress) {
-  const double share = force_jump_share(data.fit, data.axis);
-  if (share < 1.0) progress("the screw yields: the force sensor does not show the command's jumps at once");
-  return share;
-}
-
 /// A diagnosis on its way: both engines, what is found, what is told.
 class Diagnosing {
  public:
   /// @param known faults that the case no longer has
   Diagnosing(const Case& given, const std::function<void(std::string_view)>& progress, std::vector<SetupFault> known = {})
       : progress_(progress),
-        data_(mended(given, result_, progress)),
+        data_(mended(given, result_.setup, progress)),
         jump_share_(shown_jump_share(data_, progress)),
         model_(make_tracks(data_.fit, data_.axis, jump_share_), data_.axis),
         fitter_(model_, data_.axis),
@@ -97,18 +84,18 @@ class Diagnosing {
     forward_.learn_meter_noise(extended(as_settled()));
     if (!same_names(names_before)) found_.last = screen(fitter_, fit_, found_.whitening);
     look_again_at_the_runs();
-    if (settled_) drop_what_is_not_missed();
+    if (dropped_what_is_not_missed() && look_again_at_the_runs()) dropped_what_is_not_missed();
     settled_ = ask_for_gain_in_numbers(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
   }
 
-  void drop_what_is_not_missed() {
+  /// What went may have hidden another.
+  bool dropped_what_is_not_missed() {
+    if (!settled_) return false;
     const auto names_then = fit_.model.effects;
     keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
-    if (same_names(names_then)) return;
-    found_.last = screen(fitter_, fit_, found_.whitening);  // what went may have hidden another
-    const auto names_left = fit_.model.effects;
-    look_again_at_the_runs();
-    if (!same_names(names_left)) keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
+    if (same_names(names_then)) return false;
+    found_.last = screen(fitter_, fit_, found_.whitening);
+    return true;
   }
 
   /// Where the motor's friction sets in over a path, what was found without it stood for that path about every reversal.
@@ -126,16 +113,20 @@ class Diagnosing {
     return std::ranges::equal(as, fit_.model.effects, {}, &Active::hypothesis, &Active::hypothesis);
   }
 
-  void look_again_at_the_runs() {
+  /// Is there a name more?
+  bool look_again_at_the_runs() {
     const std::size_t seen_before = found_.found.size();
     settled_ = look_again(forward_, fitter_, found_, fit_, settled_, progress_);
-    if (found_.found.size() > seen_before) ask_the_others_again();
+    const bool more = found_.found.size() > seen_before;
+    if (more) ask_the_others_again();
+    return more;
   }
 
   /// With the numbers as the closed loop has them, where it was asked.
   [[nodiscard]] const Candidate& as_settled() const { return settled_ ? settled_->model : fit_.model; }
 
-  /// Numbers of the inverse model beside a name that the closed loop gave may simulate nothing well: no judges of another.
+  /// A name that the closed loop gave may leave the inverse model with numbers that simulate nothing well; by those no other
+  /// name can be judged.
   [[nodiscard]] bool is_far_behind_settled() const {
     constexpr double far = 2.0;
     if (!settled_) return false;
@@ -169,7 +160,8 @@ class Diagnosing {
     auto ways = ways_of(polished.model);
     const std::size_t of_polished = ways.size();
     for (auto& unpolished : ways_of(fit_.model)) ways.push_back(std::move(unpolished));
-    constexpr double surely_deviations = 3.0;  // of the stretches: a few rows of a jump may outweigh them in the sum
+    // as the runs go, or beyond the scatter of their stretches likelier: a few rows of a jump may outweigh them in the sum
+    constexpr double surely_deviations = 3.0;
     const auto likelier =
         compared(likelihood(forward_, extended(polished.model)), likelihood(forward_, extended(fit_.model)));
     if (closest(forward_, ways) >= of_polished && likelier.deviations < surely_deviations) return;

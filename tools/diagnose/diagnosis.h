@@ -59,8 +59,8 @@ struct Diagnosis {
   std::vector<Suspect> suspects;  ///< beyond chance, too weak to be named or denied by unseen runs
   double denied_by_unseen = 0.0;  ///< the suspects had been named, but left unseen runs so many times as far off; 0: not so
   NextExperiment next;
-  double detection_limit_N = 0.0;   ///< RMS of the weakest effect that would have been named
-  bool cut_short = false;           ///< the closed loop had simulated what a minute allows: not all was asked
+  double detection_limit_N = 0.0;  ///< RMS of the weakest effect that would have been named
+  bool cut_short = false;  ///< the closed loop had simulated as much as it may: what it would still have asked is left out
   bool power_of_command = false;    ///< the power meter's readings are computed from the command
   double motor_presliding_m = 0.0;  ///< path over which the motor's friction sets in, where it was found; 0: at once
   plant::AxisParameters updated;    ///< recalibrated and extended

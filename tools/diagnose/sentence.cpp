@@ -126,7 +126,7 @@ std::string summary_of(const Diagnosis& diagnosis) {
         "axis.",
         1e6 * diagnosis.motor_presliding_m);
   if (diagnosis.cut_short)
-    text += " The closed loop had then simulated what a minute allows: not all that could be asked was asked.";
+    text += " The closed loop has simulated as much as it may: what it would still have asked is left out.";
   if (diagnosis.power_of_command)
     text +=
         " The power is, to a thousandth, what commanded torque and motion make: a figure that the drive computes, which "

@@ -36,7 +36,7 @@ bool explains_most(const SearchResult& found) {
 
 /// A name that every unseen fold bears out stays whatever else is left over, if it is more than a bite: not where it leaves
 /// most of the structure, and not beside a spring that gives way with time, which none of the catalogue is and which looks
-/// like a spring, a drag and a drift (nothing else had 0.2 of the remainder so).
+/// like a spring and a drag.
 bool certain(const SearchResult& found, const Structure& after, const Squares& squares) {
   constexpr double most_left = 0.5, gives_way = 0.2;
   if (squares.share_left() > most_left || after.gives_way > gives_way) return explains_most(found);

@@ -14,7 +14,8 @@ namespace feedtwin::tools {
 namespace {
 
 // what a drive's power is made of, at last the work given back; and work by what torque was, nearly a row's delay
-constexpr int drive_laws = std::tuple_size_v<DrivePowers>, own_laws = drive_laws - 1, laws = drive_laws + 1;
+constexpr int drive_laws = std::tuple_size_v<DrivePowers>, linear_forth = 1, linear_back = 2, work = drive_laws - 2,
+              own_laws = drive_laws - 1, laws = drive_laws + 1;
 using Laws = Eigen::Array<double, laws, 1>;
 
 /// What a tick's power may be made of, with the work of a torque that lags its command.
@@ -96,6 +97,26 @@ Explained explained(std::span<const Recording> recordings, MeterHabit habit, int
   return {squares, std::max(0.0, squares - 2.0 * found.dot(right) + found.dot(normal * found)), found};
 }
 
+double unexplained(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
+                   const plant::AxisParameters& axis) {
+  return explained(recordings, habit, asked, errors, axis).left;
+}
+
+MeterHabit habit_in_time(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
+  constexpr double clearly = 0.6;  // of the squares; a lagging current loop alone makes 0.66 (practice case p08)
+  // with a lag among the laws the practice cases, which are of instants, have 0.98 and more; where a ripple that is no law
+  // yet hides the difference, means over time had 0.87
+  constexpr double likely = 0.9;
+  constexpr MeterHabit instants{}, all_time{.delay = 0, .instants = false}, late{.delay = 1, .instants = false};
+  for (const Errors errors : {Errors::of_readings, Errors::alike})
+    for (const int asked : {own_laws, own_laws + 1})
+      if (unexplained(recordings, late, asked, errors, axis) <
+          clearly * unexplained(recordings, all_time, asked, errors, axis))
+        return late;
+  const double over_time = unexplained(recordings, all_time, laws, Errors::alike, axis);
+  return over_time < likely * unexplained(recordings, instants, laws, Errors::alike, axis) ? all_time : instants;
+}
+
 /// A drive may report what it computes from its command: that is nobody's measurement, and no effect between command and
 /// shaft shows in it. So it is where the recorded command and motion make the readings to a thousandth, by numbers that are
 /// the nominal ones: what a true meter would have shown of a constant torque, or of one that opposes the motion, those
@@ -108,13 +129,9 @@ bool computed_from_command(std::span<const Recording> recordings, MeterHabit hab
     return std::abs(found - nominal) <= share * std::abs(nominal);
   };
   const auto& linear = axis.motor.electrical_linear_Ws_per_m;
-  return is_near(by_laws.size[drive_laws - 2], 1.0, most_off_work) &&
-         is_near(by_laws.size[1], linear.pos, most_off_nominal) && is_near(by_laws.size[2], linear.neg, most_off_nominal);
-}
-
-double unexplained(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
-                   const plant::AxisParameters& axis) {
-  return explained(recordings, habit, asked, errors, axis).left;
+  return is_near(by_laws.size[work], 1.0, most_off_work) &&
+         is_near(by_laws.size[linear_forth], linear.pos, most_off_nominal) &&
+         is_near(by_laws.size[linear_back], linear.neg, most_off_nominal);
 }
 
 }  // namespace
@@ -157,25 +174,6 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
   std::erase_if(meter.rows, [&meter](std::size_t row) { return row + 1 < meter.window + meter.delay; });
   return meter;
 }
-
-namespace {
-
-MeterHabit habit_in_time(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
-  constexpr double clearly = 0.6;  // of the squares; a lagging current loop alone makes 0.66 (practice case p08)
-  // with a lag among the laws the practice cases, which are of instants, have 0.98 and more; where a ripple that is no law
-  // yet hides the difference, means over time had 0.87
-  constexpr double likely = 0.9;
-  constexpr MeterHabit instants{}, all_time{.delay = 0, .instants = false}, late{.delay = 1, .instants = false};
-  for (const Errors errors : {Errors::of_readings, Errors::alike})
-    for (const int asked : {own_laws, own_laws + 1})
-      if (unexplained(recordings, late, asked, errors, axis) <
-          clearly * unexplained(recordings, all_time, asked, errors, axis))
-        return late;
-  const double over_time = unexplained(recordings, all_time, laws, Errors::alike, axis);
-  return over_time < likely * unexplained(recordings, instants, laws, Errors::alike, axis) ? all_time : instants;
-}
-
-}  // namespace
 
 MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
   MeterHabit habit = habit_in_time(recordings, axis);

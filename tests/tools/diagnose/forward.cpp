@@ -45,6 +45,22 @@ TEST(ForwardModel, TheAxisThatMadeARunLeavesTheNoiseFloorAndAWrongOneMore) {
   EXPECT_GT(forward.nrmse(data.axis).at("torque_cmd_Nm"), 3.0 * floor);
 }
 
+// Axes that are alike are simulated once, so this does not hang on who asks how often.
+TEST(ForwardModel, CountsWhatItSimulates) {
+  const Case data = made_case(0.0);
+  const auto axis = plant::source_axis();
+  auto other = axis;
+  other.motor.inertia_kgm2 *= 1.1;
+  const auto one_run = static_cast<std::uint64_t>(data.fit.front().size());
+  const ForwardModel forward(data.fit, data, 2 * one_run);
+  (void)forward.simulate(forward.runs().front(), {axis, axis});
+  EXPECT_EQ(forward.simulated_samples(), one_run);
+  EXPECT_FALSE(forward.spent());
+  (void)forward.simulate(forward.runs().front(), {axis, other});
+  EXPECT_EQ(forward.simulated_samples(), 3 * one_run);
+  EXPECT_TRUE(forward.spent());
+}
+
 // A step of a fit may ask for anything: an axis that is no number is like no other, and takes none of their results.
 TEST(ForwardModel, SimulatesEqualAxesOnceAndEachAsAlone) {
   const Case data = made_case(0.0);

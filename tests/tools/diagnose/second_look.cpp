@@ -12,7 +12,8 @@ namespace {
 using namespace tools::diagnosis;
 
 /// Runs with all sensors of an axis with these effects. What the second look names where the search named nothing.
-std::vector<std::string_view> named_again(const std::vector<plant::EffectSetting>& effects) {
+std::vector<std::string_view> named_again(const std::vector<plant::EffectSetting>& effects,
+                                          std::uint64_t most_samples = ForwardModel::usual_samples) {
   auto truth = plant::source_axis();
   truth.effects = effects;
   tools::Case data = tests::short_case(truth, plant::source_axis());
@@ -35,7 +36,7 @@ std::vector<std::string_view> named_again(const std::vector<plant::EffectSetting
   found.whitening = fitter.colour_of(model.residual(data.axis, {}));
   Fit fit = fitter.fit_with_colour({data.axis, {}}, found.whitening, 2, 6);
   found.last = screen(fitter, fit, found.whitening);
-  ForwardModel forward(data.fit, data);
+  ForwardModel forward(data.fit, data, most_samples);
   const auto settled = look_again(forward, fitter, found, fit, std::nullopt, [](std::string_view) {});
   EXPECT_EQ(settled ? settled->model.effects.size() : 0U, found.found.size());
   EXPECT_EQ(fit.model.effects.size(), found.found.size());
@@ -50,6 +51,11 @@ TEST(SecondLook, NamesWhatTheNumbersTookUpAndTheClosedLoopMisses) {
             std::vector<std::string_view>{"sensor_gain"});
   // in motion it is another Coulomb friction each way; at rest it is not
   EXPECT_EQ(named_again({tests::effect("gravity", {{"force_N", 2.0}})}), std::vector<std::string_view>{"gravity"});
+}
+
+TEST(SecondLook, AsksNothingMoreOnceTheClosedLoopHasSimulatedAsMuchAsItMay) {
+  const plant::EffectSetting weight = tests::effect("gravity", {{"force_N", 2.0}});
+  EXPECT_EQ(named_again({weight}, 30'000), std::vector<std::string_view>{});
 }
 
 TEST(SecondLook, NamesNothingWhereEverythingIsSimulatedToItsNoise) {

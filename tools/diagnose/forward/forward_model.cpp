@@ -85,8 +85,8 @@ Recording as_recorded(const ClosedLoopRun& run, const Simulated& simulated, doub
 
 }  // namespace
 
-ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case& data)
-    : data_(&data), before_(std::make_shared<RulingsBefore>()) {
+ForwardModel::ForwardModel(const std::vector<Recording>& recordings, const Case& data, std::uint64_t most_samples)
+    : data_(&data), most_samples_(most_samples), before_(std::make_shared<RulingsBefore>()) {
   runs_.reserve(recordings.size());
   for (const auto& recording : recordings) runs_.emplace_back(recording, data.axis, data.controller, following);
 }

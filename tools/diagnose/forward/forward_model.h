@@ -17,8 +17,12 @@ class RulingsBefore;
 
 class ForwardModel {
  public:
+  /// So many samples that the rest of a diagnosis takes a minute or two on two cores.
+  static constexpr std::uint64_t usual_samples = 50'000'000;
+
   /// @param recordings of the case, or some of them; must outlive this
-  ForwardModel(const std::vector<Recording>& recordings, const Case& data);
+  /// @param most_samples that are simulated before no more is asked
+  ForwardModel(const std::vector<Recording>& recordings, const Case& data, std::uint64_t most_samples = usual_samples);
 
   /// The scatter of the meter's readings, as a share of each, from the differences of neighbouring residuals.
   void learn_meter_noise(const AxisByRun& axis);
@@ -39,8 +43,8 @@ class ForwardModel {
 
   /// Samples of runs that were simulated so far: what the questions have cost, the same on every machine.
   [[nodiscard]] std::uint64_t simulated_samples() const { return *simulated_samples_; }
-  /// So many that the rest takes a minute full on two cores: what could still be asked is left out then.
-  [[nodiscard]] bool spent() const { return simulated_samples() > most_samples; }
+  /// Are they as many as may be? What could still be asked is left out then.
+  [[nodiscard]] bool spent() const { return simulated_samples() > most_samples_; }
 
   /// What was ruled on these runs before.
   [[nodiscard]] RulingsBefore& before() const { return *before_; }
@@ -51,7 +55,7 @@ class ForwardModel {
                       const std::vector<std::size_t>& alike, std::vector<Simulated>& all) const;
 
   const Case* data_;
-  static constexpr std::uint64_t most_samples = 50'000'000;
+  std::uint64_t most_samples_;
   double meter_share_ = 0.0;
   std::vector<ClosedLoopRun> runs_;
   std::shared_ptr<RulingsBefore> before_;

@@ -65,11 +65,11 @@ class SecondLook {
     least_errors_ = lesser(forward_.nrmse(extended(fit.model)), errors_);
     if (!is_off(errors_)) return false;
     std::vector<Answer> answers;
-    for (const auto& question : asked)
-      if (forward_.spent()) {
-        progress_(fmt::format("closed loop: {} is not asked about, the minute is spent", question.score.hypothesis->id));
-      } else if (auto one = answer(question, *settled, shared_nats(answers, *settled), found.whitening, fit))
+    for (const auto& question : asked) {
+      if (forward_.spent()) break;
+      if (auto one = answer(question, *settled, shared_nats(answers, *settled), found.whitening, fit))
         answers.push_back(std::move(*one));
+    }
     std::ranges::stable_sort(answers, std::greater{}, [](const Answer& a) { return a.ruling.value; });
     auto best = std::ranges::find(answers, true, &Answer::enough);
     while (best != answers.end() && !told_fairly(*best, *settled)) best = std::find_if(++best, answers.end(), &enough);

@@ -1,0 +1,20 @@
+#pragma once
+// The case as both engines take it: without what is wrong in its set-up.
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "tools/diagnose/setup_checks.h"
+#include "tools/recording/case.h"
+
+namespace feedtwin::tools::diagnosis {
+
+/// @param faults takes what was mended
+[[nodiscard]] Case mended(Case data, std::vector<SetupFault>& faults, const std::function<void(std::string_view)>& progress);
+
+/// How much of a jump of the command the force sensor shows at once, of what it would on one body; less where the screw
+/// yields.
+[[nodiscard]] double shown_jump_share(const Case& data, const std::function<void(std::string_view)>& progress);
+
+}  // namespace feedtwin::tools::diagnosis
