@@ -15,6 +15,24 @@ namespace {
 constexpr double lowest_Hz = 0.3, step_Hz = 0.01;
 constexpr Index frequencies = 371;
 
+/// Place of a frequency's multiple.
+Index multiple(Index frequency, Index times) {
+  return times * frequency + (times - 1) * std::lround(lowest_Hz / step_Hz);
+}
+
+/// The frequency, with its multiples, that brings most.
+std::vector<Index> waves_of(const Eigen::ArrayXd& gain, Index harmonics) {
+  double most = -1.0;
+  std::vector<Index> best;
+  for (Index i = 0; multiple(i, harmonics) < frequencies; ++i) {
+    std::vector<Index> waves;
+    double together = 0.0;
+    for (Index h = 1; h <= harmonics; ++h) waves.push_back(multiple(i, h)), together += gain[waves.back()];
+    if (together > most) most = together, best = std::move(waves);
+  }
+  return best;
+}
+
 }  // namespace
 
 Beat::Beat(std::span<const BeatMoment> moments, std::size_t folds)
@@ -33,7 +51,15 @@ Beat::Beat(std::span<const BeatMoment> moments, std::size_t folds)
   }
 }
 
-Vector Beat::unseen(const Vector& y) const {
+/// Waves that do not turn with the motion are those of the beat times its sign.
+Vector Beat::pulses_unseen(const Vector& y) const {
+  constexpr Index harmonics = 3;
+  Vector way(y.size());
+  for (std::size_t k = 0; k < moments_.size(); ++k) way[static_cast<Index>(k)] = moments_[k].forth ? 1.0 : -1.0;
+  return way.cwiseProduct(unseen(way.cwiseProduct(y), harmonics));
+}
+
+Vector Beat::unseen(const Vector& y, Index harmonics) const {
   std::vector<PairSums> all(runs_, PairSums(frequencies)), own(runs_ * folds_, PairSums(frequencies));
   for (std::size_t k = 0; k < moments_.size(); ++k) {
     const auto column = static_cast<Index>(k);
@@ -46,15 +72,15 @@ Vector Beat::unseen(const Vector& y) const {
     std::vector<PairSums> others = all;
     Eigen::ArrayXd gain = Eigen::ArrayXd::Zero(frequencies);
     for (std::size_t r = 0; r < runs_; ++r) others[r].add(own[r * folds_ + f], -1.0), gain += others[r].gain();
-    Index best = 0;
-    gain.maxCoeff(&best);
-    std::vector<std::pair<double, double>> phases;  // sine and cosine of each run
-    for (const auto& run : others) phases.push_back(run.at(best));
-    for (std::size_t k = 0; k < moments_.size(); ++k) {
-      if (moments_[k].fold != f) continue;
-      const auto column = static_cast<Index>(k);
-      const auto [sine, cosine] = phases[moments_[k].run];
-      predicted[column] = sine * sine_(best, column) + cosine * cosine_(best, column);
+    for (const Index best : waves_of(gain, harmonics)) {
+      std::vector<std::pair<double, double>> phases;  // sine and cosine of each run
+      for (const auto& run : others) phases.push_back(run.at(best));
+      for (std::size_t k = 0; k < moments_.size(); ++k) {
+        if (moments_[k].fold != f) continue;
+        const auto column = static_cast<Index>(k);
+        const auto [sine, cosine] = phases[moments_[k].run];
+        predicted[column] += sine * sine_(best, column) + cosine * cosine_(best, column);
+      }
     }
   }
   return predicted;

@@ -1,5 +1,6 @@
 #pragma once
-// Friction that beats with time: sin(2 pi f t + phase) with the sign of the motion, one frequency, a phase in each run.
+// What keeps time: friction that beats, sin(2 pi f t + phase) with the sign of the motion, and a force that pulses by the
+// clock (a pump, a valve), whatever the motion: such waves of f, 2 f and 3 f. One frequency, phases in each run.
 
 #include <span>
 #include <vector>
@@ -19,9 +20,13 @@ class Beat {
   Beat(std::span<const BeatMoment> moments, std::size_t folds);
 
   /// What the frequency and phases that explain most of the other folds predict of each.
-  [[nodiscard]] Vector unseen(const Vector& y) const;
+  [[nodiscard]] Vector unseen(const Vector& y) const { return unseen(y, 1); }
+  /// The same of pulses.
+  [[nodiscard]] Vector pulses_unseen(const Vector& y) const;
 
  private:
+  [[nodiscard]] Vector unseen(const Vector& y, Index harmonics) const;
+
   std::vector<BeatMoment> moments_;
   std::size_t folds_, runs_ = 0;
   Eigen::MatrixXd sine_, cosine_;  ///< a row a frequency, a column a moment

@@ -63,6 +63,7 @@ class Diagnosing {
     if (taken_back_if_denied(result_, found_)) tell_the_numbers_alone();
     plan_next();
     result_.summary = summary_of(result_);
+    result_.simulated_samples = forward_.simulated_samples();
     return std::move(result_);
   }
 
@@ -157,19 +158,26 @@ class Diagnosing {
   }
 
   void take_polished(const Polished& polished) {
-    auto ways = ways_of(polished.model);
-    const std::size_t of_polished = ways.size();
-    for (auto& unpolished : ways_of(fit_.model)) ways.push_back(std::move(unpolished));
-    // as the runs go, or beyond the scatter of their stretches likelier: a few rows of a jump may outweigh them in the sum
-    constexpr double surely_deviations = 3.0;
-    const auto likelier =
-        compared(likelihood(forward_, extended(polished.model)), likelihood(forward_, extended(fit_.model)));
-    if (closest(forward_, ways) >= of_polished && likelier.deviations < surely_deviations) return;
-    fit_.model = polished.model;
-    covariance_ = with_what_only_inverse_tells(polished.covariance, covariance_, polished.model, fit_.base_count());
+    if (is_better(polished.model)) {
+      fit_.model = polished.model;
+      covariance_ = with_what_only_inverse_tells(polished.covariance, covariance_, polished.model, fit_.base_count());
+    }
     const std::size_t named = fit_.model.effects.size();
     drop_sizeless(forward_, fitter_, by_inverse_model_.model, found_, fit_, covariance_, progress_);
     if (fit_.model.effects.size() < named) fit_.model = polished_if_closer(forward_, fitter_, fit_.model);
+  }
+
+  /// As the runs go, or beyond the scatter of their stretches likelier: a few rows of a jump may outweigh them in the sum.
+  [[nodiscard]] bool is_better(const Candidate& polished) const {
+    constexpr double surely_deviations = 3.0;
+    constexpr double far_worse = 1.5;  // a force that disturbs the axis made half of a table's mass the likeliest
+    if (spoils_a_channel(forward_, polished, fit_.model, far_worse)) return false;
+    auto ways = ways_of(polished);
+    const std::size_t of_polished = ways.size();
+    for (auto& unpolished : ways_of(fit_.model)) ways.push_back(std::move(unpolished));
+    if (closest(forward_, ways) < of_polished) return true;
+    return compared(likelihood(forward_, extended(polished)), likelihood(forward_, extended(fit_.model))).deviations >=
+           surely_deviations;
   }
 
   /// Names, numbers and the axis that holds them.

@@ -1,6 +1,7 @@
 #pragma once
 // The whole of a diagnosis: what was found in a case and how well it is known, ready to be told.
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -61,10 +62,11 @@ struct Diagnosis {
   NextExperiment next;
   double detection_limit_N = 0.0;  ///< RMS of the weakest effect that would have been named
   bool cut_short = false;  ///< the closed loop had simulated as much as it may: what it would still have asked is left out
-  bool power_of_command = false;    ///< the power meter's readings are computed from the command
-  double motor_presliding_m = 0.0;  ///< path over which the motor's friction sets in, where it was found; 0: at once
-  plant::AxisParameters updated;    ///< recalibrated and extended
-  std::vector<Figure> pictures;     ///< where the mismatch lives, before and after, on held-out runs
+  std::uint64_t simulated_samples = 0;  ///< by the closed loop: what the answer has cost, the same on every machine
+  bool power_of_command = false;        ///< the power meter's readings are computed from the command
+  double motor_presliding_m = 0.0;      ///< path over which the motor's friction sets in, where it was found; 0: at once
+  plant::AxisParameters updated;        ///< recalibrated and extended
+  std::vector<Figure> pictures;         ///< where the mismatch lives, before and after, on held-out runs
 };
 
 /// @param progress called with what is being done

@@ -92,6 +92,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   for (const auto& one : diagnosis.recalibrated)
     out["recalibrated"][one.key] = {{"was", one.was}, {"now", one.now.value}, {"ci90", {one.now.low, one.now.high}}};
   if (diagnosis.motor_presliding_m > 0.0) out["motor_presliding_m"] = diagnosis.motor_presliding_m;
+  out["simulated_samples"] = diagnosis.simulated_samples;
   if (diagnosis.cut_short) out["cut_short"] = true;
   if (diagnosis.power_of_command) out["power_of_command"] = true;
   out["holdout"] = of(diagnosis.holdout);

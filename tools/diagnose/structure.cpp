@@ -19,7 +19,7 @@ constexpr std::array relaxation_s{0.1, 0.3, 1.0, 3.0};
 
 /// When and where a row is, and how it came there.
 struct Moment {
-  double position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, time_s;
+  double position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, since_rest_s, time_s;
   std::vector<double> past;                            ///< accelerations before
   std::array<double, relaxation_s.size()> strain_m{};  ///< of such springs
   std::size_t run, fold;
@@ -45,12 +45,27 @@ std::vector<std::array<double, relaxation_s.size()>> strains_m(const Track& trac
   return all;
 }
 
+/// Time since the axis last left a rest of some length, by sample; long where it has not rested.
+std::vector<double> since_rest_s(const Track& track) {
+  constexpr double a_rest_s = 0.1, long_ago_s = 1e3;
+  std::vector<double> all(static_cast<std::size_t>(track.size));
+  double since = long_ago_s, dwelt = 0.0;
+  for (Index k = 0; k < track.size; ++k) {
+    const bool rests = std::abs(track.steady_m_per_s[k]) < standstill_m_per_s;
+    dwelt = rests ? dwelt + track.sample_s : 0.0;
+    since = dwelt > a_rest_s ? 0.0 : since + track.sample_s;
+    all[static_cast<std::size_t>(k)] = since;
+  }
+  return all;
+}
+
 /// The settled rows of one run's force equations, which all have the same.
 void add_moments(const InverseModel& model, const Segment& segment, std::vector<Moment>& all, std::vector<Index>& rows) {
   const Track& track = model.tracks()[segment.run];
   const Index step = std::max<Index>(1, std::lround(past_step_s / track.sample_s));
   const auto acceleration = [&track](Index k) { return slow_acceleration_m_per_s2(track, k); };
   const auto strains = strains_m(track);
+  const auto since_rest = since_rest_s(track);
   for (Index i = 0; i < segment.size; ++i) {
     if (!model.settled(segment.start + i)) continue;
     const Index k = model.sample_of(segment, i);
@@ -59,6 +74,7 @@ void add_moments(const InverseModel& model, const Segment& segment, std::vector<
              track.centred_m_per_s[k],
              acceleration(k),
              track.since_reversal_s[k],
+             since_rest[static_cast<std::size_t>(k)],
              t,
              {},
              strains[static_cast<std::size_t>(k)],
@@ -82,14 +98,20 @@ void hats(double x, double low, double high, Index count, double weight, Eigen::
 
 /// How many columns each part of the additive model has; the parts stand in this order.
 constexpr Index places = 40, speeds = 12, times = 8, pulls = 10;
-constexpr std::array widths{3 * places, 2 * speeds, 2 * times, 2 * pulls, Index{past_steps}, Index{relaxation_s.size()}};
-enum Part : unsigned { place = 1, speed = 2, reversal = 4, pull = 8, past = 16, relaxing = 32 };
+constexpr std::array widths{3 * places, 2 * speeds, 2 * times, 2 * pulls, Index{past_steps}, Index{relaxation_s.size()},
+                            2 * times};
+enum Part : unsigned { place = 1, speed = 2, reversal = 4, pull = 8, past = 16, relaxing = 32, start = 64 };
 /// What is asked: a part that has nothing to say spoils what the others say on unseen folds.
 /// The last ones only when it is asked whether a model leaves structure over, not for the colour of the noise.
-constexpr std::size_t ways_of_colour = 5;
-constexpr std::array<unsigned, 7> asked{
-    place | speed | reversal | pull | past,           place, speed | reversal | pull | past, pull | past, past, relaxing,
-    place | speed | reversal | pull | past | relaxing};
+constexpr std::size_t ways_of_colour = 5, with_springs = 7;
+constexpr std::array<unsigned, 8> asked{place | speed | reversal | pull | past,
+                                        place,
+                                        speed | reversal | pull | past,
+                                        pull | past,
+                                        past,
+                                        relaxing,
+                                        place | speed | reversal | pull | past | relaxing,
+                                        start};
 
 std::vector<Index> columns_of(unsigned parts) {
   std::vector<Index> columns;
@@ -126,6 +148,8 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
     both_ways(std::cbrt(m.acceleration_m_per_s2 / hardest), -1.0, 1.0, pulls);
     for (int j = 0; j < past_steps; ++j) row[from++] = m.past[static_cast<std::size_t>(j)] / hardest;
     for (const double strain_m : m.strain_m) row[from++] = strain_m / (high - low + 1e-12);
+    if (m.since_rest_s < 2.0)
+      both_ways(std::log(std::clamp(m.since_rest_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
     rows.col(static_cast<Index>(k)) = row;
   }
   return rows;
@@ -200,11 +224,17 @@ Vector RepeatableStructure::additive(const Vector& y, std::size_t ways) const {
 }
 
 Vector RepeatableStructure::unseen(const Vector& y, std::size_t ways) const {
-  const Vector alone = additive(y, ways), beats = beat_->unseen(y), beside = beats + additive(y - beats, ways);
-  const Vector* best = &alone;
-  for (const Vector* other : {&beats, &beside})
-    if ((y - *other).squaredNorm() < (y - *best).squaredNorm()) best = other;
-  return *best;
+  Vector best = additive(y, ways);
+  const auto or_better = [&](Vector other) {
+    if ((y - other).squaredNorm() < (y - best).squaredNorm()) best = std::move(other);
+  };
+  const auto beside = [&](const Vector& keeps_time) {
+    or_better(keeps_time);
+    or_better(keeps_time + additive(y - keeps_time, ways));
+  };
+  beside(beat_->unseen(y));
+  if (ways > with_springs) beside(beat_->pulses_unseen(y));
+  return best;
 }
 
 Vector RepeatableStructure::gathered(const Vector& residual, std::size_t equation) const {
@@ -243,8 +273,9 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
     if (of_force(model_.equations()[e])) y += gathered(residual, e);
   y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm();
-  double after = (y - unseen(y, ways_.size())).squaredNorm();
-  if (before > 0.0) found.gives_way = std::max(0.0, (y - unseen(y, ways_of_colour)).squaredNorm() - after) / before;
+  const auto left_by = [&](std::size_t ways) { return (y - unseen(y, ways)).squaredNorm(); };
+  double after = left_by(ways_.size());
+  if (before > 0.0) found.gives_way = std::max(0.0, left_by(ways_of_colour) - left_by(with_springs)) / before;
   const Vector rings = ringing_->unseen(y), rest = y - rings;
   const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest, ways_.size())).squaredNorm();
   if (rung > 0.0 && std::min(beside, before - rung) < after) {

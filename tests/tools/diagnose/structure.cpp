@@ -72,6 +72,41 @@ TEST_F(Runs, ASpringAndABumpArePredictedWhereTheyWereNotSeen) {
   EXPECT_LT(settled_norm(bump - structure.part_of(bump)), 0.5 * settled_norm(bump));
 }
 
+// A pump's pulses, every 1.7 s by the clock, whatever the axis does.
+TEST_F(Runs, PulsesByTheClockArePredictedInPartsOfRunsThatWereNotSeen) {
+  const RepeatableStructure structure(model);
+  const Vector pulses = rows_of([](const Track& t, Index k) {
+    return 5.0 * std::exp(-std::fmod(static_cast<double>(k) * t.sample_s + 0.4, 1.7) / 0.35);
+  });
+  const Structure found = structure.remaining(noise() + pulses);
+  EXPECT_GT(found.share, 0.3);
+  EXPECT_LT(found.gives_way, 0.1) << "no spring does that";
+}
+
+// A brake that lets go late: a drag that is gone 0.35 s after each rest.
+TEST_F(Runs, ADragAfterEachRestIsPredictedWhereItWasNotSeen) {
+  auto runs = made();  // their reversals are none
+  runs.push_back(
+      tests::make_recording(plant::source_axis(), {.motion = "s_curve", .settings = {.dwell_s = 0.6}, .duration_s = 8.0}));
+  const InverseModel rests(make_tracks(runs, plant::source_axis()), plant::source_axis());
+  const RepeatableStructure structure(rests);
+  std::normal_distribution<double> normal;
+  Vector rows = Vector::Zero(rests.rows());
+  for (const auto& s : rests.segments()) {
+    const Track& t = rests.tracks()[s.run];
+    std::vector<double> drag_N;
+    double since_s = 1e3, at_rest_s = 0.0;
+    for (Index k = 0; k < t.size; ++k) {
+      at_rest_s = std::abs(t.steady_m_per_s[k]) < 1e-3 ? at_rest_s + t.sample_s : 0.0;
+      since_s = at_rest_s > 0.2 ? 0.0 : since_s + t.sample_s;
+      drag_N.push_back(std::copysign(8.0 * std::exp(-since_s / 0.35), t.centred_m_per_s[k]));
+    }
+    for (Index i = 0; i < s.size; ++i)
+      rows[s.start + i] = normal(random) + drag_N[static_cast<std::size_t>(rests.sample_of(s, i))];
+  }
+  EXPECT_GT(structure.remaining(rows).share, 0.3);
+}
+
 // A bellows or a leaking cylinder: a spring's force that is gone in a second.
 TEST_F(Runs, ASpringThatGivesWayIsPredictedThoughNoPlaceHasItsForce) {
   const RepeatableStructure structure(model);

@@ -57,6 +57,7 @@ TEST(Telling, AChannelThatComesAllOfItsWayTellsThoughStretchesDisagree) {
   EXPECT_EQ(telling_of(gravity, answered(448.0, 0.0, -2.0, 11.8, 0.97)), Telling::nothing) << "a single stretch has none";
   EXPECT_EQ(telling_of(gravity, answered(448.0, 0.8, -2.0, 11.8, 0.8)), Telling::nothing);
   EXPECT_EQ(telling_of(gravity, answered(448.0, 0.8, -2.0, 3.0, 0.97)), Telling::nothing);
+  EXPECT_EQ(telling_of(gravity, answered(1237.0, 7.1, -200.0, 17.55, 1.01)), Telling::nothing) << "the numbers say no";
   EXPECT_EQ(telling_of(hypothesis("torque_offset"), answered(448.0, 0.8, 2.0, 11.8, 0.97)), Telling::nothing);
 }
 

@@ -14,8 +14,7 @@ constexpr double hopeless = 0.5;
 
 }  // namespace
 
-bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named) {
-  constexpr double far_worse = 2.0;
+bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named, double far_worse) {
   const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named)),
               floor = forward.noise_floor(extended(named));
   return std::ranges::any_of(by_rival, [&](const auto& channel) {

@@ -13,7 +13,9 @@ namespace feedtwin::tools::diagnosis {
 /// Does the rival leave a channel far worse than the named one does, as the inverse model has it? Then the sum over all
 /// channels is another's doing: a screw's compliance was 31634 nats likelier than the gap that was there, and four times as
 /// far off on the scale.
-[[nodiscard]] bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named);
+/// @param far_worse how many times as far off
+[[nodiscard]] bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named,
+                                    double far_worse = 2.0);
 
 class Arbiter {
  public:

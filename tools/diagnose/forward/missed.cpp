@@ -102,8 +102,6 @@ double nats_to_stay(const Found& named, double farther) {
   // What numbers take up takes them back when it goes: of 14 true torque constants, five of them with numbers fitted to data
   // that held it, they were 23 to 1173 squared tolerances farther off without; of one that was noise, 17 nearer.
   constexpr double where_it_puts_them_off = 4.0;
-  // of a weight without which the numbers are as good as where they were: a true one of 1.6 N put them 2 off
-  constexpr double clearly_nearer = 10.0;
   // what numbers could do and what puts them far off has led them astray: a false weight, and a false offset in its place,
   // were missed by 1360 nats and put them 930 squared tolerances off
   constexpr double far_nearer = 100.0, times_as_many = 2.0;

@@ -80,9 +80,6 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
   // an amplitude's own deviations are no measure where it goes with the effect's other numbers: a true rise of 15 % with the
   // rest had 1.7 and was missed by 137 nats
   constexpr double missed_nats = 100.0;
-  // missed as it may be, of neither sign: of some 150 names in three sets one was, and false (friction by the load, which
-  // bent what a hard stop's model leaves)
-  constexpr double of_nothing = 1.0;
   Index from = fit.base_count();
   Nrmse with = forward.nrmse(extended(fit.model));
   for (std::size_t e = 0; e < fit.model.effects.size();) {
@@ -97,7 +94,7 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     const double from_nothing = deviations_from_nothing(fit.model.effects[e], covariance, from);
     const auto* named = found.of(hypothesis);
     const bool missed = named != nullptr && named->missed_nats > missed_nats;
-    const bool told = missed || from_nothing > least_deviations, nothing = from_nothing < of_nothing;
+    const bool told = missed || from_nothing > least_deviations, nothing = from_nothing < hypothesis->least_deviations;
     const bool not_missed = named != nullptr && named->missed_nats < 0.0;
     const bool agreed =
         (named != nullptr && named->by_closed_loop) ||

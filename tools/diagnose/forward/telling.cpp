@@ -54,6 +54,8 @@ bool all_of_its_way(const Answered& a) {
 Telling telling_of(const Hypothesis& h, const Answered& a) {
   const bool absorbed = h.told_by_runs_nats.has_value();
   if (absorbed && a.nearer_nominal < 0.0) return Telling::nothing;
+  // of the true weights of four sets the numbers came 1 farther at most; of a false one 200, with a power 18 times as close
+  if (h.number_of_the_model && a.nearer_nominal < -clearly_nearer) return Telling::nothing;
   if (would_go_again(h, a)) return Telling::nothing;
   const double least_deviations = absorbed ? least_deviations_by_runs : 0.0;
   const bool closer = std::ranges::any_of(steps, [&](const Step& step) { return step.holds(a, least_deviations); });

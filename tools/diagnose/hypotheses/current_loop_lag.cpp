@@ -46,6 +46,7 @@ Hypothesis current_loop_lag() {
           .named = named,
           .admissible = possible,
           .sentence = "the drive's current loop lags: first order, {time_constant_s} s",
+          .least_deviations = deviations_of_lags,
           .finding = late_beyond_a_model,
           .confused_with = {"input_delay", "channel_skew", "frictional_lag"},
           .too_small_to_tell = gone_within_a_sample,

@@ -52,6 +52,7 @@ Hypothesis friction_drift() {
           // beside a real contact's friction false ones were missed by 3 and 50 nats, right ones by 709 and more
           .least_missed_nats = 150.0,
           .follows_any_law = true,
+          .least_deviations = deviations_of_numbers,
           .confused_with = {"thermal_friction"},
           .state = "initial_change",
           .first_state = first_state,

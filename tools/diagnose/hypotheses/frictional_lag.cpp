@@ -54,6 +54,7 @@ Hypothesis frictional_lag() {
           .admissible = possible,
           .sentence = "friction follows speed with a lag of {time_constant_s} s",
 
+          .least_deviations = deviations_of_lags,
           .confused_with = {"input_delay", "current_loop_lag"},
           .friction = true,
           .forces_too = true};

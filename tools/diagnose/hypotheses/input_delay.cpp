@@ -40,6 +40,7 @@ Hypothesis input_delay() {
           .named = named,
           .admissible = possible,
           .sentence = "the command acts {delay_s} s late",
+          .least_deviations = deviations_of_lags,
           .finding = late_beyond_a_model,
           .confused_with = {"current_loop_lag", "channel_skew", "frictional_lag"},
           .too_small_to_tell = gone_within_a_sample,

@@ -39,6 +39,7 @@ Hypothesis payload() {
           .number_of_the_model = true,
           .absorbed = true,
           .far_off_gain = 35.0,
+          .least_deviations = deviations_of_numbers,
           .confused_with = {"current_loop_lag"},
           .closed_loop_starts = {{0.0}},
           .told_by_runs_nats = 100.0,

@@ -36,6 +36,7 @@ Hypothesis quadratic_drag() {
           .sentence = "a drag grows with the square of speed: {coefficient_Ns2_per_m2} N s^2/m^2",
 
           .follows_any_law = true,
+          .least_deviations = deviations_of_numbers,
           .confused_with = {"sublinear_viscous"},
           .friction = false};
 }

@@ -63,6 +63,7 @@ Hypothesis sensor_gain() {
               "of the truth",
           .absorbed = true,
           .far_off_gain = 40.0,
+          .least_deviations = deviations_of_numbers,
           .only_readings = true,
           .reading = reading,
           .confused_with = {"torque_gain_error"},

@@ -57,6 +57,7 @@ Hypothesis thermal_friction() {
 
           .least_missed_nats = 150.0,  // right ones 478 and more
           .follows_any_law = true,
+          .least_deviations = deviations_of_numbers,
           .confused_with = {"friction_drift"},
           .state = "initial_reduction",
           .first_state = first_state,

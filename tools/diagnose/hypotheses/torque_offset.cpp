@@ -30,6 +30,7 @@ Hypothesis torque_offset() {
           .sentence = "the drive adds a constant {offset_Nm} N m",
           .absorbed = true,
           .far_off_gain = 150.0,
+          .least_deviations = deviations_of_numbers,
           .confused_with = {"gravity", "direction_dependent_friction"},
           .closed_loop_starts = {{0.0}},
           .told_by_runs_nats = 100.0,
