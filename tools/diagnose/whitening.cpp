@@ -11,7 +11,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr Index order = 12;
-constexpr double clip_at_sigmas = 4.0;
+constexpr double clip_at_sigmas = 4.0, least_share_of_rms = 1.0 / 1.5;
 
 double robust_sigma(std::vector<double> values) {
   if (values.empty()) return 1.0;
@@ -85,7 +85,9 @@ Whitening Whitening::estimate(const InverseModel& model, const Vector& given) {
       for (Index j = 0; j < p; ++j) toeplitz(i, j) = correlation[std::abs(i - j)];
     const Vector a = p > 0 ? solved(toeplitz, correlation.tail(p)) : Vector();
     const double innovation = correlation[0] - a.dot(correlation.tail(p));
-    made.colours_.push_back({{a.begin(), a.end()}, std::sqrt(std::max(innovation, 1e-6 * correlation[0]))});
+    // what leaves spikes is a law's mistake and no noise: a play that is taken up a moment early would outweigh all else
+    const double least = model.equations()[e].slip ? least_share_of_rms * rms : 0.0;
+    made.colours_.push_back({{a.begin(), a.end()}, std::max(least, std::sqrt(std::max(innovation, 1e-6 * correlation[0])))});
     made.rms_.push_back(std::sqrt(correlation[0]));
     made.unsettled_.push_back(1.0);
   }

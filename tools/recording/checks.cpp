@@ -195,7 +195,10 @@ ChannelQuality channel_quality(std::span<const double> values) {
   const double step = steps[steps.size() / 100];
   const auto on_grid = std::ranges::count_if(
       steps, [step](double s) { return std::abs(s / step - std::round(s / step)) < 0.05 && s < 20.0 * step; });
-  if (static_cast<double>(on_grid) > 0.2 * static_cast<double>(steps.size())) quality.resolution = step;
+  // and none between rounding and that: an axis at one speed has steps of one length too, and others as it turns
+  const auto between = std::ranges::count_if(steps, [step](double s) { return s > 0.1 * step && s < 0.9 * step; });
+  const auto all = static_cast<double>(steps.size());
+  if (static_cast<double>(on_grid) > 0.2 * all && static_cast<double>(between) < 0.002 * all) quality.resolution = step;
   return quality;
 }
 

@@ -14,12 +14,12 @@ namespace {
 
 using namespace tools::diagnosis;
 
-constexpr double mass_kg = 9.0, frequency_Hz = 7.3, damping_ratio = 0.02;
+constexpr double mass_kg = 9.0, rings_at_Hz = 7.3, damping_ratio = 0.02;
 
 plant::AxisParameters carrying_a_swing() {
   auto axis = plant::source_axis();
   axis.effects = {tests::effect("learned_mode",
-                                {{"mass_kg", mass_kg}, {"frequency_Hz", frequency_Hz}, {"damping_ratio", damping_ratio}})};
+                                {{"mass_kg", mass_kg}, {"frequency_Hz", rings_at_Hz}, {"damping_ratio", damping_ratio}})};
   return axis;
 }
 
@@ -34,10 +34,10 @@ TEST(WithMode, ItsNumbersAreThoseOfTheRuns) {
   const Fitter fitter(model, data.axis);
   const ForwardModel forward(data.fit, data), held_out(data.holdout, data);
   Learned learned;
-  learned.mode = Mode{.frequency_Hz = 1.02 * frequency_Hz, .damping_ratio = 0.05, .mass_kg = 0.6 * mass_kg};
+  learned.mode = Mode{.frequency_Hz = 1.02 * rings_at_Hz, .damping_ratio = 0.05, .mass_kg = 0.6 * mass_kg};
   const auto axis = with_mode(forward, fitter, {data.axis, {}}, learned);
   ASSERT_TRUE(learned.mode.has_value());
-  EXPECT_NEAR(learned.mode->frequency_Hz, frequency_Hz, 0.005 * frequency_Hz);
+  EXPECT_NEAR(learned.mode->frequency_Hz, rings_at_Hz, 0.005 * rings_at_Hz);
   EXPECT_NEAR(learned.mode->mass_kg, mass_kg, 0.1 * mass_kg);
   EXPECT_NEAR(learned.mode->damping_ratio, damping_ratio, 0.5 * damping_ratio);
   ASSERT_NE(swing_in(axis), nullptr);
@@ -52,7 +52,7 @@ TEST(WithMode, APartThatIsNotThereIsNotPutIn) {
   const ForwardModel forward(data.fit, data);
   for (const double kg : {mass_kg, -mass_kg}) {
     Learned learned;
-    learned.mode = Mode{.frequency_Hz = frequency_Hz, .damping_ratio = damping_ratio, .mass_kg = kg};
+    learned.mode = Mode{.frequency_Hz = rings_at_Hz, .damping_ratio = damping_ratio, .mass_kg = kg};
     const auto axis = with_mode(forward, fitter, {data.axis, {}}, learned);
     EXPECT_FALSE(learned.mode.has_value());
     EXPECT_EQ(swing_in(axis), nullptr);

@@ -235,5 +235,16 @@ TEST(ChannelQuality, FindsTheGridAndSaturation) {
   EXPECT_NEAR(channel_quality(clipped).saturated_share, 0.317, 0.02);
 }
 
+TEST(ChannelQuality, OneSpeedForthAndBackIsNoGrid) {
+  std::vector<double> position;
+  double at = 0.0;
+  for (int i = 0; i < 8000; ++i) {  // steps of 0.0185 but where it turns, every second
+    const int since = i % 1000;
+    const double speed = 0.0185 * std::min({1.0, (since + 0.5) / 20.0, (1000.0 - since) / 20.0});
+    position.push_back(at += i / 1000 % 2 == 0 ? speed : -speed);
+  }
+  EXPECT_EQ(channel_quality(position).resolution, 0.0);
+}
+
 }  // namespace
 }  // namespace feedtwin::tools

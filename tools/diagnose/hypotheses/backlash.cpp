@@ -12,15 +12,13 @@ namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  constexpr double pressing_N = 0.5;  // the force sensor then tells which flank bears
-  const bool felt = track.force_sensor_N.size() > 0;
+  constexpr double pressing_N = 0.5;  // the force then tells which flank bears
   const Vector force = force_on_table(view);
   Vector slip(track.size);
   double table = track.position_m[0];
   for (Index k = 0; k < track.size; ++k) {
     table = std::clamp(table, track.position_m[k] - 0.5 * q[0], track.position_m[k] + 0.5 * q[0]);
-    if (felt && std::abs(track.force_sensor_N[k]) > pressing_N)
-      table = track.position_m[k] - std::copysign(0.5 * q[0], track.force_sensor_N[k]);
+    if (std::abs(force[k]) > pressing_N) table = track.position_m[k] - std::copysign(0.5 * q[0], force[k]);
     slip[k] = table - track.position_m[k] - q[1] * force[k];
   }
   add(sum.slip_m, slip);
