@@ -17,8 +17,8 @@ namespace feedtwin::tools::diagnosis {
 
 /// Takes back names for which the closed loop finds no size: no channel changes when the effect goes, its interval holds
 /// nothing and the other numbers can take up what it does, or it is a small part of what the inverse model found; but not
-/// where it is missed by hundreds of nats. And those that came out at a size that cannot be. Their rows leave the
-/// covariance too.
+/// where it is missed by hundreds of nats. And those that came out at a size that cannot be, or nearer to nothing than
+/// `Hypothesis::least_deviations`, however much they are missed. Their rows leave the covariance too.
 void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Candidate& by_inverse_model, SearchResult& found,
                    Fit& fit, Eigen::MatrixXd& covariance, const std::function<void(std::string_view)>& progress);
 
