@@ -45,7 +45,8 @@ std::vector<std::array<double, relaxation_s.size()>> strains_m(const Track& trac
   return all;
 }
 
-/// Time since the axis last left a rest of some length, by sample; long where it has not rested.
+/// Time since the axis last left a rest of some length, by sample; long where it has not rested. A rest is where the
+/// encoder's grid alone moves, which the track's own dwells, for friction that is followed, do not ask.
 std::vector<double> since_rest_s(const Track& track) {
   constexpr double a_rest_s = 0.1, long_ago_s = 1e3;
   std::vector<double> all(static_cast<std::size_t>(track.size));

@@ -8,7 +8,7 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// `least_deviations` of what the numbers could do, or what any smooth change of friction looks like: of 280 names in nine
+/// `least_deviations` of what the numbers could do, or what any smooth change of friction looks like: of 283 names in seven
 /// sets true ones had 16 and more, but for a warm-up of 6; false ones 1.6 to 9.8.
 inline constexpr double deviations_of_numbers = 10.0;
 /// And of what comes late, as the first moment of any other law's friction does, and all friction on an axis that a large
