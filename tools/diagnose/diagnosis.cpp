@@ -82,11 +82,19 @@ class Diagnosing {
     if (!same_names(names_confirmed)) ask_the_others_again();
     unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_);
     if (unknown_) return;
+    const auto names_asked = fit_.model.effects;
     forward_.learn_meter_noise(extended(as_settled()));
     if (!same_names(names_before)) found_.last = screen(fitter_, fit_, found_.whitening);
     look_again_at_the_runs();
     if (dropped_what_is_not_missed() && look_again_at_the_runs()) dropped_what_is_not_missed();
     settled_ = ask_for_gain_in_numbers(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
+    ask_again_what_is_unknown(names_asked, fit_.model);
+  }
+
+  /// A name that went may have stood for what none of the catalogue is.
+  void ask_again_what_is_unknown(const std::vector<Active>& asked, const Candidate& now) {
+    const auto gone = [&](const Active& then) { return !has(now, *then.hypothesis); };
+    if (std::ranges::any_of(asked, gone)) unknown_ = beyond_the_catalogue(fitter_, found_, now, progress_);
   }
 
   /// What went may have hidden another.
@@ -158,26 +166,17 @@ class Diagnosing {
   }
 
   void take_polished(const Polished& polished) {
-    if (is_better(polished.model)) {
+    if (is_better(forward_, polished.model, fit_.model)) {
       fit_.model = polished.model;
       covariance_ = with_what_only_inverse_tells(polished.covariance, covariance_, polished.model, fit_.base_count());
     }
-    const std::size_t named = fit_.model.effects.size();
+    const auto named = fit_.model.effects;
     drop_sizeless(forward_, fitter_, by_inverse_model_.model, found_, fit_, covariance_, progress_);
-    if (fit_.model.effects.size() < named) fit_.model = polished_if_closer(forward_, fitter_, fit_.model);
-  }
-
-  /// As the runs go, or beyond the scatter of their stretches likelier: a few rows of a jump may outweigh them in the sum.
-  [[nodiscard]] bool is_better(const Candidate& polished) const {
-    constexpr double surely_deviations = 3.0;
-    constexpr double far_worse = 1.5;  // a force that disturbs the axis made half of a table's mass the likeliest
-    if (spoils_a_channel(forward_, polished, fit_.model, far_worse)) return false;
-    auto ways = ways_of(polished);
-    const std::size_t of_polished = ways.size();
-    for (auto& unpolished : ways_of(fit_.model)) ways.push_back(std::move(unpolished));
-    if (closest(forward_, ways) < of_polished) return true;
-    return compared(likelihood(forward_, extended(polished)), likelihood(forward_, extended(fit_.model))).deviations >=
-           surely_deviations;
+    if (fit_.model.effects.size() == named.size()) return;
+    Candidate left = by_inverse_model_.model;
+    std::erase_if(left.effects, [&](const Active& then) { return !has(fit_.model, *then.hypothesis); });
+    ask_again_what_is_unknown(named, fitter_.fit(left, found_.whitening, refit_iterations).model);
+    fit_.model = polished_if_closer(forward_, fitter_, fit_.model);
   }
 
   /// Names, numbers and the axis that holds them.

@@ -6,86 +6,17 @@
 #include <numeric>
 #include <span>
 
+#include "tools/diagnose/moments.h"
 #include "tools/diagnose/taken_up.h"
 #include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::size_t folds = 4;
-
-/// Of springs that give way with time: a bellows, a counterbalance cylinder that leaks.
-constexpr std::array relaxation_s{0.1, 0.3, 1.0, 3.0};
-
-/// When and where a row is, and how it came there.
-struct Moment {
-  double position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, since_rest_s, time_s;
-  std::vector<double> past;                            ///< accelerations before
-  std::array<double, relaxation_s.size()> strain_m{};  ///< of such springs
-  std::size_t run, fold;
-  Index sample;
-};
-
-constexpr int past_steps = 24;
-constexpr double past_step_s = 0.012, stretch_s = 0.73;  // no motion repeats in step with it
+constexpr std::size_t folds = folds_of_moments;
 
 bool of_force(const Equation& equation) {
   return !equation.slip && !equation.power;
-}
-
-/// s' = v - s / T, by relaxation time: of a Maxwell element that has come to rest before the run.
-std::vector<std::array<double, relaxation_s.size()>> strains_m(const Track& track) {
-  std::vector<std::array<double, relaxation_s.size()>> all(static_cast<std::size_t>(track.size));
-  for (std::size_t k = 1; k < all.size(); ++k)
-    for (std::size_t i = 0; i < relaxation_s.size(); ++i) {
-      const auto at = static_cast<Index>(k);
-      all[k][i] =
-          (all[k - 1][i] + track.position_m[at] - track.position_m[at - 1]) / (1.0 + track.sample_s / relaxation_s[i]);
-    }
-  return all;
-}
-
-/// Time since the axis last left a rest of some length, by sample; long where it has not rested. A rest is where the
-/// encoder's grid alone moves, which the track's own dwells, for friction that is followed, do not ask.
-std::vector<double> since_rest_s(const Track& track) {
-  constexpr double a_rest_s = 0.1, long_ago_s = 1e3;
-  std::vector<double> all(static_cast<std::size_t>(track.size));
-  double since = long_ago_s, dwelt = 0.0;
-  for (Index k = 0; k < track.size; ++k) {
-    const bool rests = std::abs(track.steady_m_per_s[k]) < standstill_m_per_s;
-    dwelt = rests ? dwelt + track.sample_s : 0.0;
-    since = dwelt > a_rest_s ? 0.0 : since + track.sample_s;
-    all[static_cast<std::size_t>(k)] = since;
-  }
-  return all;
-}
-
-/// The settled rows of one run's force equations, which all have the same.
-void add_moments(const InverseModel& model, const Segment& segment, std::vector<Moment>& all, std::vector<Index>& rows) {
-  const Track& track = model.tracks()[segment.run];
-  const Index step = std::max<Index>(1, std::lround(past_step_s / track.sample_s));
-  const auto acceleration = [&track](Index k) { return slow_acceleration_m_per_s2(track, k); };
-  const auto strains = strains_m(track);
-  const auto since_rest = since_rest_s(track);
-  for (Index i = 0; i < segment.size; ++i) {
-    if (!model.settled(segment.start + i)) continue;
-    const Index k = model.sample_of(segment, i);
-    const double t = static_cast<double>(k) * track.sample_s;
-    Moment m{track.position_m[k],
-             track.centred_m_per_s[k],
-             acceleration(k),
-             track.since_reversal_s[k],
-             since_rest[static_cast<std::size_t>(k)],
-             t,
-             {},
-             strains[static_cast<std::size_t>(k)],
-             segment.run,
-             (static_cast<std::size_t>(t / stretch_s) + segment.run) % folds,
-             k};
-    for (int j = 0; j < past_steps; ++j) m.past.push_back(acceleration(std::max<Index>(0, k - j * step)));
-    all.push_back(std::move(m));
-    rows.push_back(i);
-  }
 }
 
 /// Hat functions over a range: adds them, times a weight, to one row.
@@ -97,22 +28,51 @@ void hats(double x, double low, double high, Index count, double weight, Eigen::
   row[from + i + 1] += weight * share;
 }
 
+/// Torque, sliding and viscous friction that change with what the drive has had to give, friction with how far it has run.
+void fade(const Moment& m, double command, double velocity, Eigen::Ref<Vector> row, Index from) {
+  const double way = velocity > 0.0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < fading_s.size(); ++i)
+    for (const double change :
+         {command * m.load[i], way * m.load[i], velocity * m.load[i], way * m.use[i], velocity * m.use[i]})
+      row[from++] = change;
+}
+
 /// How many columns each part of the additive model has; the parts stand in this order.
-constexpr Index places = 40, speeds = 12, times = 8, pulls = 10;
-constexpr std::array widths{3 * places, 2 * speeds, 2 * times, 2 * pulls, Index{past_steps}, Index{relaxation_s.size()},
-                            2 * times};
-enum Part : unsigned { place = 1, speed = 2, reversal = 4, pull = 8, past = 16, relaxing = 32, start = 64 };
+constexpr Index places = 40, speeds = 12, times = 8, pulls = 10, regions = 8, speeds_there = 6;
+constexpr std::array widths{3 * places,
+                            2 * speeds,
+                            2 * times,
+                            2 * pulls,
+                            Index{past_steps},
+                            Index{relaxation_s.size()},
+                            2 * times,
+                            Index{5 * fading_s.size()},
+                            2 * regions * speeds_there};
+enum Part : unsigned {
+  place = 1,
+  speed = 2,
+  reversal = 4,
+  pull = 8,
+  past = 16,
+  relaxing = 32,
+  start = 64,
+  fading = 128,
+  region = 256
+};
 /// What is asked: a part that has nothing to say spoils what the others say on unseen folds.
 /// The last ones only when it is asked whether a model leaves structure over, not for the colour of the noise.
 constexpr std::size_t ways_of_colour = 5, with_springs = 7;
-constexpr std::array<unsigned, 8> asked{place | speed | reversal | pull | past,
-                                        place,
-                                        speed | reversal | pull | past,
-                                        pull | past,
-                                        past,
-                                        relaxing,
-                                        place | speed | reversal | pull | past | relaxing,
-                                        start};
+constexpr std::array<unsigned, 11> asked{place | speed | reversal | pull | past,
+                                         place,
+                                         speed | reversal | pull | past,
+                                         pull | past,
+                                         past,
+                                         relaxing,
+                                         place | speed | reversal | pull | past | relaxing,
+                                         start,
+                                         fading,
+                                         region,
+                                         place | speed | reversal | pull | past | fading};
 
 std::vector<Index> columns_of(unsigned parts) {
   std::vector<Index> columns;
@@ -123,12 +83,22 @@ std::vector<Index> columns_of(unsigned parts) {
   return columns;
 }
 
+/// Speed's hats, by region of the travel.
+void over_region(double place_share, double speed_share, Eigen::Ref<Vector> row, Index from) {
+  const double at = std::clamp(place_share, 0.0, 1.0) * static_cast<double>(regions - 1);
+  const Index i = std::min<Index>(static_cast<Index>(at), regions - 2);
+  const double share = at - static_cast<double>(i);
+  hats(speed_share, 0.0, 1.0, speeds_there, 1.0 - share, row, from + i * speeds_there);
+  hats(speed_share, 0.0, 1.0, speeds_there, share, row, from + (i + 1) * speeds_there);
+}
+
 Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
-  double low = 1e300, high = -1e300, fastest = 1e-9, hardest = 1e-9;
+  double low = 1e300, high = -1e300, fastest = 1e-9, hardest = 1e-9, strongest_N = 1e-9;
   for (const auto& m : all) {
     low = std::min(low, m.position_m), high = std::max(high, m.position_m);
     fastest = std::max(fastest, std::abs(m.velocity_m_per_s));
     hardest = std::max(hardest, std::abs(m.acceleration_m_per_s2));
+    strongest_N = std::max(strongest_N, std::abs(m.command_N));
   }
   const Index width = std::accumulate(widths.begin(), widths.end(), Index{0});
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(width, static_cast<Index>(all.size()));
@@ -136,6 +106,7 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
     const auto& m = all[k];
     Vector row = Vector::Zero(width);
     const bool forth = m.velocity_m_per_s > 0.0;
+    const double speed_share = std::sqrt(std::abs(m.velocity_m_per_s) / fastest);
     Index from = 0;
     const auto both_ways = [&](double x, double a, double b, Index count) {
       hats(x, a, b, count, 1.0, row, from + (forth ? 0 : count));
@@ -144,13 +115,18 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
     both_ways(m.position_m, low, high, places);
     hats(m.position_m, low, high, places, m.velocity_m_per_s / fastest, row, from);
     from += places;
-    both_ways(std::sqrt(std::abs(m.velocity_m_per_s) / fastest), 0.0, 1.0, speeds);
+    both_ways(speed_share, 0.0, 1.0, speeds);
     both_ways(std::log(std::clamp(m.since_reversal_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
     both_ways(std::cbrt(m.acceleration_m_per_s2 / hardest), -1.0, 1.0, pulls);
     for (int j = 0; j < past_steps; ++j) row[from++] = m.past[static_cast<std::size_t>(j)] / hardest;
     for (const double strain_m : m.strain_m) row[from++] = strain_m / (high - low + 1e-12);
     if (m.since_rest_s < 2.0)
       both_ways(std::log(std::clamp(m.since_rest_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
+    else
+      from += 2 * times;
+    fade(m, m.command_N / strongest_N, m.velocity_m_per_s / fastest, row, from);
+    from += Index{5 * fading_s.size()};
+    over_region((m.position_m - low) / (high - low + 1e-12), speed_share, row, from + (forth ? 0 : regions * speeds_there));
     rows.col(static_cast<Index>(k)) = row;
   }
   return rows;
@@ -169,7 +145,9 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   for (const auto& segment : model.segments()) {
     if (!of_force(model.equations()[segment.equation]) || done[segment.run]) continue;
     done[segment.run] = true;
-    add_moments(model, segment, all, places_[segment.run]);
+    auto of_run = moments_of(model, segment);
+    all.insert(all.end(), of_run.moments.begin(), of_run.moments.end());
+    places_[segment.run] = std::move(of_run.rows);
   }
   if (all.size() < least_rows) return;
   rows_ = regressors_of(all);

@@ -1,8 +1,8 @@
 #pragma once
 // Is what a model leaves over still structure? A general additive model of the force remainder - tables over place, speed,
 // time since reversal or since a rest, acceleration, speed-weighted place, the acceleration's past, springs that give way
-// with time - what keeps time and a part that rings, learned on three quarters of the seconds and judged on the fourth, in
-// turn.
+// with time, what fades with use, speed by region of the travel - what keeps time and a part that rings, learned on three
+// quarters of the seconds and judged on the fourth, in turn.
 
 #include <Eigen/Cholesky>
 #include <optional>

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/tools/diagnose/cogged.h"
+#include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/missed.h"

@@ -107,6 +107,61 @@ TEST_F(Runs, ADragAfterEachRestIsPredictedWhereItWasNotSeen) {
   EXPECT_GT(structure.remaining(rows).share, 0.4) << "the time since a reversal tells 0.27 of it";
 }
 
+/// Several speeds in each run, at every place.
+struct RunsOfSpeeds : testing::Test {
+  InverseModel model{make_tracks(made(), plant::source_axis()), plant::source_axis()};
+  std::mt19937 random{11};  // NOLINT(bugprone-random-generator-seed): the same runs every time
+
+  static std::vector<tools::Recording> made() {
+    std::vector<tools::Recording> runs;
+    for (const double slowest : {0.01, 0.015, 0.02})
+      runs.push_back(tests::make_recording(
+          plant::source_axis(), {.motion = "stair",
+                                 .settings = {.speed_m_per_s = 0.14, .slowest_m_per_s = slowest, .steps = 7, .hold_s = 0.5},
+                                 .duration_s = 9.0}));
+    return runs;
+  }
+  /// Beside noise of a newton. @param force_N of a track, sample by sample
+  [[nodiscard]] Structure of(const std::function<std::vector<double>(const Track&)>& force_N) {
+    std::normal_distribution<double> normal;
+    Vector rows = Vector::Zero(model.rows());
+    for (const auto& s : model.segments()) {
+      const auto force = force_N(model.tracks()[s.run]);
+      for (Index i = 0; i < s.size; ++i)
+        rows[s.start + i] = normal(random) + force[static_cast<std::size_t>(model.sample_of(s, i))];
+    }
+    return RepeatableStructure(model).remaining(rows);
+  }
+};
+
+// A drive that folds back, a bus that sags: torque that weakens by what has been asked of it in the seconds before.
+TEST_F(RunsOfSpeeds, TorqueThatFadesUnderLoadIsPredictedWhereItWasNotSeen) {
+  const auto found = of([](const Track& t) {
+    std::vector<double> lost_N;
+    double load = 0.0;
+    for (Index k = 0; k < t.size; ++k) {
+      load += (std::abs(t.command_N[k]) - load) * t.sample_s / 2.0;
+      lost_N.push_back(2e-3 * t.command_N[k] * load);
+    }
+    return lost_N;
+  });
+  EXPECT_GT(found.share, 0.7) << "0.43 of it without what fades";
+}
+
+// A cover that chatters on one half of the travel, at some speeds.
+TEST_F(RunsOfSpeeds, ADragInOneRegionAtSomeSpeedsIsPredictedWhereItWasNotSeen) {
+  const auto found = of([](const Track& t) {
+    std::vector<double> drag_N;
+    for (Index k = 0; k < t.size; ++k) {
+      const double v = t.centred_m_per_s[k];
+      const bool chatters = t.position_m[k] > 0.01 && std::abs(v) > 0.03 && std::abs(v) < 0.07;
+      drag_N.push_back(chatters ? std::copysign(4.0, v) : 0.0);
+    }
+    return drag_N;
+  });
+  EXPECT_GT(found.share, 0.63) << "0.57 of it without speed by region";
+}
+
 // A bellows or a leaking cylinder: a spring's force that is gone in a second.
 TEST_F(Runs, ASpringThatGivesWayIsPredictedThoughNoPlaceHasItsForce) {
   const RepeatableStructure structure(model);

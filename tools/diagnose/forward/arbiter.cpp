@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/extended_axis.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -13,14 +14,6 @@ namespace {
 constexpr double hopeless = 0.5;
 
 }  // namespace
-
-bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named, double far_worse) {
-  const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named)),
-              floor = forward.noise_floor(extended(named));
-  return std::ranges::any_of(by_rival, [&](const auto& channel) {
-    return channel.second > far_worse * std::max(by_named.at(channel.first), floor.at(channel.first));
-  });
-}
 
 bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e,
                         std::vector<const Hypothesis*>& beaten) const {

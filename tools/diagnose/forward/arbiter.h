@@ -10,13 +10,6 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// Does the rival leave a channel far worse than the named one does, as the inverse model has it? Then the sum over all
-/// channels is another's doing: a screw's compliance was 31634 nats likelier than the gap that was there, and four times as
-/// far off on the scale.
-/// @param far_worse how many times as far off
-[[nodiscard]] bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named,
-                                    double far_worse = 2.0);
-
 class Arbiter {
  public:
   Arbiter(const ForwardModel& forward, const Fitter& fitter, const std::function<void(std::string_view)>& progress)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/likelihood.h"
 #include "tools/diagnose/forward/polish.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -24,6 +25,26 @@ std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& a
     if (error < least) best = i, least = error;
   }
   return best;
+}
+
+bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named, double far_worse) {
+  const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named)),
+              floor = forward.noise_floor(extended(named));
+  return std::ranges::any_of(by_rival, [&](const auto& channel) {
+    return channel.second > far_worse * std::max(by_named.at(channel.first), floor.at(channel.first));
+  });
+}
+
+bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before) {
+  constexpr double surely_deviations = 3.0;
+  constexpr double far_worse = 1.5;  // a force that disturbs the axis made half of a table's mass the likeliest
+  if (spoils_a_channel(forward, polished, before, far_worse)) return false;
+  auto ways = ways_of(polished);
+  const std::size_t of_polished = ways.size();
+  for (auto& unpolished : ways_of(before)) ways.push_back(std::move(unpolished));
+  if (closest(forward, ways) < of_polished) return true;
+  return compared(likelihood(forward, extended(polished)), likelihood(forward, extended(before))).deviations >=
+         surely_deviations;
 }
 
 Candidate polished_if_closer(const ForwardModel& forward, const Fitter& fitter, const Candidate& start) {

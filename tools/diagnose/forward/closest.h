@@ -11,6 +11,17 @@ namespace feedtwin::tools::diagnosis {
 /// Which axis's closed loop comes closest to the runs, all channels alike; the first where none is clearly closer.
 [[nodiscard]] std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& axes);
 
+/// Does the rival leave a channel far worse than the named one does, as the inverse model has it? Then the sum over all
+/// channels is another's doing: a screw's compliance was 31634 nats likelier than the gap that was there, and four times as
+/// far off on the scale.
+/// @param far_worse how many times as far off
+[[nodiscard]] bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named,
+                                    double far_worse = 2.0);
+
+/// Are a model's polished numbers better than what they were? As the runs go, or beyond the scatter of their stretches
+/// likelier: a few rows of a jump may outweigh them in the sum.
+[[nodiscard]] bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before);
+
 /// What its numbers alone can do, by the same measure as a named model: or the gain would be the polishing's.
 [[nodiscard]] Candidate polished_if_closer(const ForwardModel& forward, const Fitter& fitter, const Candidate& start);
 
