@@ -16,11 +16,15 @@ namespace {
 
 constexpr std::size_t beside = 3;  // samples before and after that say what the motion was
 
+/// Beside what a step is short of counts: the table's where a scale shows that, or the encoder's own alone, since a scale
+/// may be noisier than the motion is rough.
+enum class Beside { table, itself };
+
 /// A sample within which the reading jumps.
 struct Jump {
-  std::size_t row;     ///< first with the new reading
-  double counts, rev;  ///< lost; where the shaft was
-  double stay;         ///< counts that a scale still misses some rows later; 0 without one
+  std::size_t run, row;  ///< first with the new reading
+  double counts, rev;    ///< lost; where the shaft was
+  double stay;           ///< counts that a scale still misses some rows later; 0 without one
 };
 
 /// What the median says, where the cubic says about as much: in a bend it has 0.6 of it at most.
@@ -30,9 +34,10 @@ double agreed(double by_median, double by_cubic) {
 }
 
 /// Counts that each sample's step is short of what the steps beside it are, by their median and along a cubic through them:
-/// where the axis speeds up hard the middle of a bend is no jump. Of the table's own motion where a scale has it.
-std::vector<double> short_of(const Recording& run, double count_m) {
-  const auto shown = run.at(channel::position_m), table = run.at(channel::scale_position_m);
+/// where the axis speeds up hard the middle of a bend is no jump.
+std::vector<double> short_of(const Recording& run, double count_m, Beside what) {
+  const auto shown = run.at(channel::position_m);
+  const auto table = what == Beside::table ? run.at(channel::scale_position_m) : std::span<const double>{};
   std::vector<double> step(shown.size(), 0.0), lost(shown.size(), 0.0);
   for (std::size_t k = 1; k < shown.size(); ++k)
     step[k] = (shown[k] - shown[k - 1] - (table.empty() ? 0.0 : table[k] - table[k - 1])) / count_m;
@@ -58,18 +63,26 @@ double missed_later(const Recording& run, std::size_t row, double counts, double
   return change / (static_cast<double>(rows) * count_m);
 }
 
-std::vector<Jump> jumps_of(const Recording& run, const plant::AxisParameters& axis) {
+std::vector<Jump> jumps_of(const std::vector<Recording>& runs, std::size_t number, const plant::AxisParameters& axis,
+                           Beside what) {
   constexpr double least_counts = 5.0, least_sigmas = 10.0;
   const double count_m = axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
-  const auto lost = short_of(run, count_m);
+  const Recording& run = runs[number];
+  const auto lost = short_of(run, count_m, what);
   std::vector<double> size(lost.size());
   std::ranges::transform(lost, size.begin(), [](double one) { return std::abs(one); });
   const double limit = std::max(least_counts, least_sigmas * 1.4826 * median_of(size));
   std::vector<Jump> found;
-  for (std::size_t k = 0; k < lost.size(); ++k)
-    if (size[k] > limit)
-      found.push_back(
-          {k, lost[k], run.at(channel::position_m)[k] / axis.axis.lead_m, missed_later(run, k, lost[k], count_m)});
+  for (std::size_t k = 0; k < lost.size(); ++k) {
+    if (std::abs(lost[k]) <= limit) continue;
+    const Jump jump{number, k, lost[k], run.at(channel::position_m)[k] / axis.axis.lead_m,
+                    missed_later(run, k, lost[k], count_m)};
+    // the steps beside a jump are short of it
+    if (found.empty() || found.back().row + beside < k)
+      found.push_back(jump);
+    else if (std::abs(found.back().counts) < std::abs(lost[k]))
+      found.back() = jump;
+  }
   return found;
 }
 
@@ -81,12 +94,13 @@ std::vector<Jump> as_large(const std::vector<Jump>& jumps, double counts) {
   return kept;
 }
 
-/// Without its sign.
-double size_of(const std::vector<Jump>& jumps) {
+/// Without its sign; of what a scale tells of it, where the encoder's own steps only said when.
+double size_of(const std::vector<Jump>& jumps, Beside what) {
   if (jumps.empty()) return 0.0;
   const auto largest = std::ranges::max_element(jumps, {}, [](const Jump& one) { return std::abs(one.counts); });
   std::vector<double> sizes;
-  for (const Jump& one : as_large(jumps, largest->counts)) sizes.push_back(std::abs(one.counts));
+  for (const Jump& one : as_large(jumps, largest->counts))
+    sizes.push_back(std::abs(what == Beside::table ? one.counts : one.stay));
   return std::round(median_of(std::move(sizes)));
 }
 
@@ -95,7 +109,17 @@ bool alike(const Jump& one, double counts) {
   return std::abs(std::abs(one.counts) - counts) <= share * counts;
 }
 
-/// Of one size, and not where the shaft passes one mark.
+/// A shaft that is at one place twice has passed it back in between: what a mark's pass had lost would have been given back.
+bool not_given_back(const std::vector<Jump>& jumps) {
+  constexpr double same_place_rev = 0.1;
+  for (std::size_t i = 1; i < jumps.size(); ++i) {
+    const Jump &one = jumps[i - 1], &next = jumps[i];
+    if (one.run == next.run && one.counts * next.counts > 0.0 && std::abs(one.rev - next.rev) < same_place_rev) return true;
+  }
+  return false;
+}
+
+/// Of one size, and not what passes of one mark of the shaft take and give back.
 bool of_its_own(const std::vector<Jump>& jumps, double counts) {
   constexpr std::size_t least_moments = 4;
   constexpr double most_others = 0.1, at_a_mark = 0.9;
@@ -107,7 +131,7 @@ bool of_its_own(const std::vector<Jump>& jumps, double counts) {
     mark += std::polar(1.0, 2.0 * std::numbers::pi * one.rev);
   }
   const auto all = static_cast<double>(jumps.size());
-  return others <= most_others * all && std::abs(mark) < at_a_mark * all;
+  return others <= most_others * all && (std::abs(mark) < at_a_mark * all || not_given_back(jumps));
 }
 
 /// Lost one time and gained another is what an encoder that jitters looks like too; lost counts stay lost.
@@ -117,38 +141,45 @@ bool all_stay(const std::vector<Jump>& jumps, double counts) {
                              [&](const Jump& one) { return std::copysign(1.0, one.counts) * one.stay >= share * counts; });
 }
 
-void give_back(Recording& run, const plant::AxisParameters& axis, double counts) {
+void give_back(std::vector<Recording>& runs, const plant::AxisParameters& axis, double counts, Beside what) {
   const double lost_m = counts * axis.axis.lead_m / axis.axis.encoder_counts_per_rev;
-  const auto jumps = jumps_of(run, axis);
-  for (const auto name : {channel::position_m, channel::reference_m})
-    if (const auto found = run.channels.find(name); found != run.channels.end())
-      for (const Jump& jump : jumps)
-        for (std::size_t k = jump.row; alike(jump, counts) && k < found->second.size(); ++k)
-          found->second[k] += std::copysign(lost_m, jump.counts);
+  for (std::size_t number = 0; number < runs.size(); ++number) {
+    const auto jumps = jumps_of(runs, number, axis, what);
+    for (const auto name : {channel::position_m, channel::reference_m})
+      if (const auto found = runs[number].channels.find(name); found != runs[number].channels.end())
+        for (const Jump& jump : jumps)
+          for (std::size_t k = jump.row; alike(jump, counts) && k < found->second.size(); ++k)
+            found->second[k] += std::copysign(lost_m, jump.counts);
+  }
 }
 
-}  // namespace
-
-std::optional<LostCounts> give_back_lost_counts(Case& data) {
+std::optional<LostCounts> give_back(Case& data, Beside what) {
   std::vector<Jump> all;
   double time_s = 0.0;
-  for (const auto& run : data.fit) {
-    std::ranges::copy(jumps_of(run, data.axis), std::back_inserter(all));
-    time_s += run.sample_s * static_cast<double>(run.at(channel::position_m).size());
+  for (std::size_t number = 0; number < data.fit.size(); ++number) {
+    std::ranges::copy(jumps_of(data.fit, number, data.axis, what), std::back_inserter(all));
+    time_s += data.fit[number].duration_s();
   }
-  const double counts = size_of(all);
+  const double counts = size_of(all, what);
   const auto lost = as_large(all, counts);
   if (!of_its_own(lost, counts)) return std::nullopt;
   const auto gained = std::ranges::count_if(lost, [](const Jump& one) { return one.counts < 0.0; });
   const bool both = gained > 0 && gained < static_cast<std::ptrdiff_t>(lost.size());
   if (both && !all_stay(lost, counts)) return std::nullopt;
-  for (auto* runs : {&data.fit, &data.holdout})
-    for (auto& run : *runs) give_back(run, data.axis, counts);
+  for (auto* runs : {&data.fit, &data.holdout}) give_back(*runs, data.axis, counts, what);
   double squares = 0.0;
   for (const Jump& one : lost) squares += std::pow(std::abs(one.counts) - counts, 2);
   const double deviation = std::sqrt(squares) / static_cast<double>(lost.size());
   return LostCounts{counts, deviation, static_cast<double>(lost.size()) / time_s, static_cast<int>(lost.size()),
                     static_cast<int>(gained)};
+}
+
+}  // namespace
+
+std::optional<LostCounts> give_back_lost_counts(Case& data) {
+  const auto found = give_back(data, Beside::table);
+  const bool scale = !data.fit.front().at(channel::scale_position_m).empty();
+  return found || !scale ? found : give_back(data, Beside::itself);
 }
 
 }  // namespace feedtwin::tools::diagnosis

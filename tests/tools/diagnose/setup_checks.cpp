@@ -133,6 +133,40 @@ TEST(SetupChecks, CountsLostOnceAndGainedAnotherTimeAreGivenBackEach) {
   for (std::size_t k = 0; k < right.size(); ++k) ASSERT_NEAR(data.fit[0].channels.at("position_m")[k], right[k], 1e-9) << k;
 }
 
+// Noise of 15 counts from row to row hides 40 beside the scale; the encoder's own steps show when, the scale how many stay
+// lost.
+TEST(SetupChecks, CountsLostAreFoundBesideAScaleThatIsNoisierThanTheMotion) {
+  Case data = recorded_with(plant::source_axis());
+  const double count_m = data.axis.axis.lead_m / data.axis.axis.encoder_counts_per_rev;
+  std::mt19937 random{5};  // NOLINT(bugprone-random-generator-seed): the same noise every time
+  std::normal_distribution<double> noise_m(0.0, 15.0 * count_m);
+  for (double& reading : data.fit[0].channels.at("scale_position_m")) reading += noise_m(random);
+  lose(data.fit[0], 40.0, {0.31, 0.9, 1.47, 2.61, 3.05});
+  const auto faults = mend_setup(data);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].id, "count_loss");
+  EXPECT_NEAR(faults[0].parameters[0].value, 40.0, 5.0);
+}
+
+// A mark that is passed back gives back what it took; a place that takes counts at every pass is no such mark.
+TEST(SetupChecks, CountsLostAtOnePlaceEachTimeAreLostAtMomentsOfTheirOwn) {
+  Case data;
+  data.axis = plant::source_axis();
+  data.fit = {tests::make_recording(
+      data.axis,
+      {.motion = "sine", .settings = {.speed_m_per_s = 0.15}, .duration_s = 5.0, .sensors = true, .scale_at_table = true})};
+  const auto right = data.fit[0].channels.at("position_m");
+  std::vector<double> passes_s;
+  for (std::size_t k = 1; k < right.size(); ++k)
+    if (right[k - 1] < 0.0 && right[k] >= 0.0) passes_s.push_back(static_cast<double>(k) * data.fit[0].sample_s);
+  ASSERT_GE(passes_s.size(), 4U);
+  lose(data.fit[0], 40.0, passes_s);
+  const auto faults = mend_setup(data);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_DOUBLE_EQ(faults[0].parameters[0].value, 40.0);
+  for (std::size_t k = 0; k < right.size(); ++k) ASSERT_NEAR(data.fit[0].channels.at("position_m")[k], right[k], 1e-9) << k;
+}
+
 TEST(SetupChecks, AReadingThatJumpsAndComesBackLosesNothing) {
   Case data = recorded_with(plant::source_axis());
   for (const double at_s : {0.31, 0.9, 1.47, 2.61, 3.05})
