@@ -44,4 +44,13 @@ bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
   return true;
 }
 
+bool left_out_if_of_harm(Diagnosis& result, const SearchResult& found) {
+  constexpr double farther = 1.02;
+  if (!result.effects.empty() || result.unknown) return false;
+  const auto worse = [](const auto& channel) { return channel.second.after > farther * channel.second.recalibrated; };
+  if (std::ranges::none_of(result.holdout, worse)) return false;
+  result.updated = extended(found.recalibrated.model).common;
+  return true;
+}
+
 }  // namespace feedtwin::tools::diagnosis

@@ -15,4 +15,8 @@ inline constexpr double denied_ratio = 2.0;
 /// @return are the names taken back? Then the result has them as suspects, and its axis is the recalibrated one
 [[nodiscard]] bool taken_back_if_denied(Diagnosis& result, const SearchResult& found);
 
+/// Where nothing is named the model may still hold what explains how the channels read. Does a channel of unseen runs say
+/// that the recalibrated numbers alone are closer? Then the result's axis is theirs.
+[[nodiscard]] bool left_out_if_of_harm(Diagnosis& result, const SearchResult& found);
+
 }  // namespace feedtwin::tools::diagnosis

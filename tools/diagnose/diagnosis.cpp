@@ -60,7 +60,7 @@ class Diagnosing {
     tell();
     tell_what_is_unknown();
     show();
-    if (taken_back_if_denied(result_, found_)) tell_the_numbers_alone();
+    if (taken_back_if_denied(result_, found_) || left_out_if_of_harm(result_, found_)) tell_the_numbers_alone();
     plan_next();
     result_.summary = summary_of(result_);
     result_.simulated_samples = forward_.simulated_samples();

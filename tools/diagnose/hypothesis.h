@@ -149,6 +149,8 @@ struct Hypothesis {
   /// Is this size a finding? Smaller ones stay in the model as nuisances, since they explain how the channels read.
   bool (*finding)(std::span<const double> q) = nullptr;
   std::vector<std::string_view> confused_with;
+  /// What it holds with some of its numbers, as growth that is over at once holds a wrong lead: told where it is as likely.
+  std::string_view special_case = {};
   std::string_view always_beside = {};  ///< obeys the same equation: an alternative whatever the data say,
   bool (*far_from_beside)(std::span<const double> q) = nullptr;  ///< but where this size is none of its own
   /// So small that what it is confused with does the same to every sample, if that is as small.

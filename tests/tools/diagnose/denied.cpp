@@ -65,5 +65,21 @@ TEST(Denied, ANameThatLeavesThemMuchFartherOffIsTakenBackAndSaid) {
   }
 }
 
+TEST(Denied, WhatIsNotNamedIsLeftOutWhereUnseenRunsAreCloserWithoutIt) {
+  for (const bool helps : {true, false}) {
+    Told told(helps ? 1.0 : 30.0);
+    told.result.effects.clear();
+    SearchResult found;
+    found.recalibrated.model = told.cogged.nominal;
+    auto axis = told.cogged.data.axis;
+    axis.effects.push_back(tests::effect("cogging", {{"amplitude_Nm", helps ? 0.01 : 0.3}, {"cycles_per_rev", 8.0}}));
+    told.result.updated = axis;
+    EXPECT_EQ(left_out_if_of_harm(told.result, found), !helps);
+    EXPECT_EQ(told.result.updated.effects.empty(), !helps);
+    told.result.unknown.emplace();
+    EXPECT_FALSE(left_out_if_of_harm(told.result, found)) << "a table is told as one";
+  }
+}
+
 }  // namespace
 }  // namespace feedtwin

@@ -46,8 +46,10 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     const bool clear = can_tell && std::abs(better) > clearly_nats &&
                        std::copysign(difference.deviations, better) == difference.deviations &&
                        std::abs(difference.deviations) > clearly_deviations;
-    if (!clear) entry->rivals.push_back(score.hypothesis);
-    if (!clear || rival.value < now.value || spoils_a_channel(forward_, rival.model, now.fit.model)) continue;
+    const bool special = named->special_case == score.hypothesis->id, general = score.hypothesis->special_case == named->id;
+    const bool settled = clear || (special && better >= 0.0) || (general && better < of_consequence_nats);
+    if (!settled) entry->rivals.push_back(score.hypothesis);
+    if (!settled || rival.value < now.value || spoils_a_channel(forward_, rival.model, now.fit.model)) continue;
     beaten.push_back(named);
     entry->effect = rival.model.effects[e];
     entry->rivals.clear();

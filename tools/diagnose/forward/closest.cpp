@@ -28,17 +28,19 @@ std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& a
 }
 
 bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named, double far_worse) {
-  const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named)),
-              floor = forward.noise_floor(extended(named));
-  return std::ranges::any_of(by_rival, [&](const auto& channel) {
-    return channel.second > far_worse * std::max(by_named.at(channel.first), floor.at(channel.first));
-  });
+  const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named));
+  const auto farther_than = [&](const Nrmse& other) {
+    return [&](const auto& channel) { return channel.second > far_worse * other.at(channel.first); };
+  };
+  if (std::ranges::none_of(by_rival, farther_than(by_named))) return false;
+  const Nrmse floor = forward.noise_floor(extended(named));
+  return std::ranges::any_of(
+      by_rival, [&](const auto& channel) { return farther_than(by_named)(channel) && farther_than(floor)(channel); });
 }
 
 bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before) {
   constexpr double surely_deviations = 3.0;
-  constexpr double far_worse = 1.5;  // a force that disturbs the axis made half of a table's mass the likeliest
-  if (spoils_a_channel(forward, polished, before, far_worse)) return false;
+  if (spoils_a_channel(forward, polished, before, far_worse_polished)) return false;
   auto ways = ways_of(polished);
   const std::size_t of_polished = ways.size();
   for (auto& unpolished : ways_of(before)) ways.push_back(std::move(unpolished));

@@ -11,6 +11,10 @@ namespace feedtwin::tools::diagnosis {
 /// Which axis's closed loop comes closest to the runs, all channels alike; the first where none is clearly closer.
 [[nodiscard]] std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& axes);
 
+/// Polished numbers that leave a channel so many times as far off are none: a force that disturbs the axis made half of a
+/// table's mass the likeliest.
+inline constexpr double far_worse_polished = 1.5;
+
 /// Does the rival leave a channel far worse than the named one does, as the inverse model has it? Then the sum over all
 /// channels is another's doing: a screw's compliance was 31634 nats likelier than the gap that was there, and four times as
 /// far off on the scale.

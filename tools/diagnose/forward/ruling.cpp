@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/forward/rulings_before.h"
@@ -66,7 +67,7 @@ Ruling polished_anew(const Fit& fit, const Candidate& start, const ForwardModel&
   settings.behind_nats = std::max(0.0, way.ahead - ruling.value - hopeless_nats);
   const Polished better = polish(forward, fitter, start, settings);
   const auto found = better.moved ? likelihood(forward, extended(better.model)) : ruling.likelihood;
-  if (found.total() > ruling.likelihood.total())
+  if (found.total() > ruling.likelihood.total() && !spoils_a_channel(forward, better.model, start, far_worse_polished))
     ruling.model = better.model, ruling.likelihood = found;
   else
     ruling.exhausted = learned && way.most_iterations == further_iterations;

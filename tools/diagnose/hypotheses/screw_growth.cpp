@@ -56,7 +56,10 @@ Hypothesis screw_growth() {
           .admissible = possible,
           .sentence = "the screw grows as it warms, by {relative_growth} of its length after a long time",
 
+          // beside a noisy scale false ones were missed by 9 and 13 nats, right ones by 36 and more
+          .least_missed_nats = 20.0,
           .confused_with = {"lead_error"},
+          .special_case = "lead_error",
           .state = "initial_growth",
           .first_state = first_state,
           .friction = false};
