@@ -18,7 +18,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 
 /// What pulls towards a point far beyond the stroke is a constant force.
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
-  constexpr double farthest_strokes = 2.0;
+  constexpr double farthest_strokes = 3.0;
   const double neutral_m = -q[1] / q[0];
   return q[0] > 0.0 && std::abs(neutral_m - axis.axis.stroke_centre_m) < farthest_strokes * axis.axis.stroke_m;
 }
