@@ -115,8 +115,8 @@ TEST(OnUnseen, AnAmplitudeOfOneMomentDoesNotHold) {
 }
 
 // A stop that is struck once: no other second foretells its numbers, which is no reason to doubt what leaves hardly
-// anything.
-TEST(OnUnseen, OneEventHoldsWhereItIsNearlyAllThatWasLeft) {
+// anything, or strikes far harder than what is left.
+TEST(OnUnseen, OneEventHoldsWhereItIsNearlyAllThatWasLeftOrStrikesHard) {
   const auto axis = plant::source_axis();
   const InverseModel model(make_tracks({tests::make_recording(axis, {.motion = "sine", .duration_s = 8.0})}, axis), axis);
   constexpr Index moment = 20;
@@ -135,6 +135,9 @@ TEST(OnUnseen, OneEventHoldsWhereItIsNearlyAllThatWasLeft) {
     EXPECT_EQ(on_unseen(model, with, without, hypothesis("hard_stop"), verdict, Bar{}).holds, left < 0.2);
     EXPECT_FALSE(on_unseen(model, with, without, hypothesis("backlash"), verdict, Bar{}).holds);
   }
+  verdict.strength = 3.0;  // as hard as a stop strikes, beside much else that is left
+  EXPECT_TRUE(on_unseen(model, with, without, hypothesis("hard_stop"), verdict, Bar{}).holds);
+  EXPECT_FALSE(on_unseen(model, with, without, hypothesis("backlash"), verdict, Bar{}).holds);
 }
 
 TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
