@@ -46,9 +46,10 @@ bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
 
 bool left_out_if_of_harm(Diagnosis& result, const SearchResult& found) {
   constexpr double farther = 1.02;
-  if (!result.effects.empty() || result.unknown) return false;
+  if (!result.effects.empty() || (result.unknown && result.unknown->mode)) return false;
   const auto worse = [](const auto& channel) { return channel.second.after > farther * channel.second.recalibrated; };
-  if (std::ranges::none_of(result.holdout, worse)) return false;
+  const bool of_harm = result.unknown ? farther_off(result.holdout) > farther : std::ranges::any_of(result.holdout, worse);
+  if (!of_harm) return false;
   result.updated = extended(found.recalibrated.model).common;
   return true;
 }

@@ -16,8 +16,9 @@ inline constexpr double denied_ratio = 1.1;
 /// @return are the names taken back? Then the result has them as suspects, and its axis is the recalibrated one
 [[nodiscard]] bool taken_back_if_denied(Diagnosis& result, const SearchResult& found);
 
-/// Where nothing is named the model may still hold what explains how the channels read. Does a channel of unseen runs say
-/// that the recalibrated numbers alone are closer? Then the result's axis is theirs.
+/// Where nothing is named the model may still hold what explains how the channels read, or a table of what is unknown. Does
+/// a channel of unseen runs, of a table all together, say that the recalibrated numbers alone are closer? Then the result's
+/// axis is theirs; the table is told still.
 [[nodiscard]] bool left_out_if_of_harm(Diagnosis& result, const SearchResult& found);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -76,8 +76,10 @@ TEST(Denied, WhatIsNotNamedIsLeftOutWhereUnseenRunsAreCloserWithoutIt) {
     told.result.updated = axis;
     EXPECT_EQ(left_out_if_of_harm(told.result, found), !helps);
     EXPECT_EQ(told.result.updated.effects.empty(), !helps);
-    told.result.unknown.emplace();
-    EXPECT_FALSE(left_out_if_of_harm(told.result, found)) << "a table is told as one";
+    told.result.unknown.emplace();  // a table
+    EXPECT_EQ(left_out_if_of_harm(told.result, found), !helps);
+    told.result.unknown->mode.emplace();
+    EXPECT_FALSE(left_out_if_of_harm(told.result, found)) << "a part that rings is told as one that the axis holds";
   }
 }
 
