@@ -108,6 +108,29 @@ TEST(MeterHabit, IsToldOfAMeterThatErrsByItsReading) {
   EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 1U);
 }
 
+// Noise that leaves of all habits about as much: the likelier one is taken, and it is the right one.
+TEST(MeterHabit, IsToldOfANoisyMeterToo) {
+  for (const double noise_W : {0.05, 0.2, 0.8}) {
+    std::vector<Recording> runs;
+    for (const double speed : {0.05, 0.12, 0.25})
+      runs.push_back(tests::make_recording(
+          plant::source_axis(),
+          {.motion = "s_curve", .settings = {.speed_m_per_s = speed, .acceleration_m_per_s2 = 4.0}, .duration_s = 10.0}));
+    std::mt19937 random(7);  // NOLINT(bugprone-random-generator-seed): the same noise every time
+    std::normal_distribution<double> noise(0.0, noise_W);
+    for (auto& run : runs) {
+      double shown = 0.0, off = 0.0;
+      for (double& reading : run.channels.at(std::string(channel::power_W))) {
+        if (reading != shown) shown = reading, off = noise(random);
+        reading += off;
+      }
+    }
+    EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 0U) << noise_W;
+    read_a_row_later(runs);
+    EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 1U) << noise_W;
+  }
+}
+
 TEST(MeterHabit, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
   auto runs = runs_of_the_plant();
   read_a_row_later(runs);

@@ -6,6 +6,7 @@
 
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/ruling.h"
+#include "tools/diagnose/torque_by_power.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -41,9 +42,19 @@ bool missed_once_polished(const ForwardModel& forward, const Fitter& fitter, con
 
 void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                     const std::function<void(std::string_view)>& progress) {
+  const auto drop = [&](std::size_t e, Fit without) {
+    std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == fit.model.effects[e].hypothesis; });
+    fit = std::move(without);
+  };
   for (std::size_t e = fit.model.effects.size(); e-- > 0;) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
     if (!worth_naming(fit.model.effects[e]) || hypothesis->number_of_the_model) continue;
+    if (denied_by_power(fitter, fit.model, e)) {
+      progress(
+          fmt::format("{}: the power that was measured says otherwise", in_words(fit.model.effects[e], fit.model.axis)));
+      drop(e, fitter.fit(without(fit.model, e), found.whitening, refit_iterations));
+      continue;
+    }
     if (const auto* named = found.of(hypothesis); named != nullptr && (named->by_closed_loop || named->far_off)) continue;
     auto seen = confirm(forward, fitter, found.whitening, fit.model, e);
     progress(fmt::format("closed loop without {}: {} off by {:.4f} times as much", hypothesis->id,
@@ -51,8 +62,7 @@ void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchRes
     if (auto* named = found.of(hypothesis)) named->error_ratio = seen.error_ratio;
     if (seen.error_ratio > hypothesis->least_error_ratio) continue;
     if (missed_once_polished(forward, fitter, found.of(hypothesis), fit, seen.without, progress)) continue;
-    fit = std::move(seen.without);
-    std::erase_if(found.found, [&](const Found& one) { return one.effect.hypothesis == hypothesis; });
+    drop(e, std::move(seen.without));
   }
 }
 
