@@ -121,9 +121,11 @@ bool not_given_back(const std::vector<Jump>& jumps) {
 
 /// Of one size, and not what passes of one mark of the shaft take and give back.
 bool of_its_own(const std::vector<Jump>& jumps, double counts) {
-  constexpr std::size_t least_moments = 4;
+  // a screw that gives where friction lets go made four of 7 counts
+  constexpr std::size_t least_moments = 4, least_of_few_counts = 8;
+  constexpr double few_counts = 10.0;
   constexpr double most_others = 0.1, at_a_mark = 0.9;
-  if (jumps.size() < least_moments) return false;
+  if (jumps.size() < (counts < few_counts ? least_of_few_counts : least_moments)) return false;
   double others = 0.0;
   std::complex<double> mark = 0.0;
   for (const Jump& one : jumps) {
@@ -134,11 +136,14 @@ bool of_its_own(const std::vector<Jump>& jumps, double counts) {
   return others <= most_others * all && (std::abs(mark) < at_a_mark * all || not_given_back(jumps));
 }
 
-/// Lost one time and gained another is what an encoder that jitters looks like too; lost counts stay lost.
-bool all_stay(const std::vector<Jump>& jumps, double counts) {
-  constexpr double share = 0.7;  // more where two follow one another
-  return std::ranges::all_of(jumps,
-                             [&](const Jump& one) { return std::copysign(1.0, one.counts) * one.stay >= share * counts; });
+/// Lost one time and gained another is what an encoder that jitters looks like too, and the encoder's own steps alone are
+/// short where an axis sticks; lost counts stay lost, and beside steps alone no more than they.
+bool all_stay(const std::vector<Jump>& jumps, double counts, Beside what) {
+  constexpr double share = 0.7, no_more = 1.4;  // more where two follow one another
+  return std::ranges::all_of(jumps, [&](const Jump& one) {
+    const double stay = std::copysign(1.0, one.counts) * one.stay;
+    return stay >= share * counts && (what == Beside::table || stay <= no_more * counts);
+  });
 }
 
 void give_back(std::vector<Recording>& runs, const plant::AxisParameters& axis, double counts, Beside what) {
@@ -165,7 +170,7 @@ std::optional<LostCounts> give_back(Case& data, Beside what) {
   if (!of_its_own(lost, counts)) return std::nullopt;
   const auto gained = std::ranges::count_if(lost, [](const Jump& one) { return one.counts < 0.0; });
   const bool both = gained > 0 && gained < static_cast<std::ptrdiff_t>(lost.size());
-  if (both && !all_stay(lost, counts)) return std::nullopt;
+  if ((both || what == Beside::itself) && !all_stay(lost, counts, what)) return std::nullopt;
   for (auto* runs : {&data.fit, &data.holdout}) give_back(*runs, data.axis, counts, what);
   double squares = 0.0;
   for (const Jump& one : lost) squares += std::pow(std::abs(one.counts) - counts, 2);
