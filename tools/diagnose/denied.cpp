@@ -35,7 +35,9 @@ double farther_off(const std::map<std::string, ChannelFigures>& unseen) {
 bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
   const double ratio = farther_off(result.holdout);
   auto named = named_of(result, found);
-  if (named.empty() || result.unknown || ratio < denied_ratio) return false;
+  const auto is_number = [](const Suspect& one) { return one.hypothesis->number_of_the_model; };
+  const double most = std::ranges::all_of(named, is_number) ? numbers_denied_ratio : denied_ratio;
+  if (named.empty() || result.unknown || ratio < most) return false;
   result.denied_by_unseen = ratio;
   result.effects.clear();
   result.suspects = std::move(named);

@@ -76,6 +76,12 @@ double Screen::p_false_alarm(double standard) const {
   return std::min(1.0 / (1.0 + static_cast<double>(chance.size())), 1.0 - std::exp(-std::exp(-y)));
 }
 
+bool Screen::leaves_to(const Score& before) const {
+  constexpr double nearly = 0.8;
+  const auto now = std::ranges::find(scores, before.hypothesis, &Score::hypothesis);
+  return now != scores.end() && now->gain > nearly * before.gain;
+}
+
 std::string in_words(const Screen& screened) {
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(6, screened.scores.size()); ++i) {

@@ -24,6 +24,9 @@ struct Screen {
   std::vector<double> chance;  ///< the largest standard score of each surrogate, sorted
   /// Chance that the best of all hypotheses scores this on the record's own residual with no effect in it.
   [[nodiscard]] double p_false_alarm(double standard) const;
+  /// Is nearly as much left to a hypothesis as it had before the model got its names? Then none of these stands for it: they
+  /// are about another thing.
+  [[nodiscard]] bool leaves_to(const Score& before) const;
 };
 
 /// "cogging would explain 81.2 % (gain 9013, p 1e-09), ...": the best of them, for whoever waits.

@@ -186,7 +186,7 @@ class Search {
     std::size_t tried = 0;
     for (const auto& score : earlier_[i]) {
       const auto* rival = score.hypothesis;
-      if (has(fit_.model, *rival) || score.gain < 0.7 * own || ++tried > rivals_tried) continue;
+      if (has(fit_.model, *rival) || score.gain < 0.7 * own || last_.leaves_to(score) || ++tried > rivals_tried) continue;
       const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, refit_iterations);
       const Active& other = fit.model.effects.back();
       if (!worth_naming(other) || !possible(other, fit.model.axis) || !judged(fitter_, fit, less, *rival, bar_).enough)

@@ -65,6 +65,20 @@ TEST(Denied, ANameThatLeavesThemMuchFartherOffIsTakenBackAndSaid) {
   }
 }
 
+TEST(Denied, NumbersThatRecalibrationHoldsAsWellAreGivenMore) {
+  for (const double times_as_far : {1.05, 1.5, 2.5})
+    for (const char* id : {"cogging", "payload"}) {
+      Diagnosis result;
+      SearchResult found;
+      found.found.emplace_back().effect.hypothesis = &hypothesis(id);
+      result.effects.push_back(tests::named(id, "amplitude_Nm", 1.0));
+      result.holdout["torque_cmd_Nm"].recalibrated = 0.01;
+      result.holdout["torque_cmd_Nm"].after = 0.01 * times_as_far;
+      const double most = std::string_view(id) == "payload" ? 2.0 : 1.1;
+      EXPECT_EQ(taken_back_if_denied(result, found), times_as_far > most) << id << " " << times_as_far;
+    }
+}
+
 TEST(Denied, WhatIsNotNamedIsLeftOutWhereUnseenRunsAreCloserWithoutIt) {
   for (const bool helps : {true, false}) {
     Told told(helps ? 1.0 : 30.0);
