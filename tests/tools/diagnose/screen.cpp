@@ -62,6 +62,21 @@ TEST(Screen, ARippleIsNoNoiseForItsNeighbours) {
   EXPECT_GT(ripple->standard, 100.0) << "36.7 where its neighbours' noise holds it";
 }
 
+// What a name explains is no more there for its rivals; what is, they say of another thing.
+TEST(Screen, KnowsWhatIsLeftToAHypothesisAsBefore) {
+  const auto score = [](const char* id, double gain) {
+    Score one;
+    one.hypothesis = &hypothesis(id);
+    one.gain = gain;
+    return one;
+  };
+  Screen last;
+  last.scores = {score("screw_growth", 261.0), score("torque_gain_error", 20.0)};
+  EXPECT_TRUE(last.leaves_to(score("screw_growth", 261.0)));
+  EXPECT_FALSE(last.leaves_to(score("torque_gain_error", 72.0)));
+  EXPECT_FALSE(last.leaves_to(score("backlash", 100.0)));
+}
+
 TEST(WholeNumber, TheOneThatHoldsOnUnseenStretchesIsTaken) {
   const tests::FittedRuns of(rippling(), plant::source_axis(), 2);
   const auto order_from = [&](double first, double also) {
