@@ -29,7 +29,7 @@ void hats(double x, double low, double high, Index count, double weight, Eigen::
 }
 
 /// Torque, sliding and viscous friction that change with what the drive has had to give, friction with how far it has run.
-void fade(const Moment& m, double command, double velocity, Eigen::Ref<Vector> row, Index from) {
+void fade(const Moment& m, double command, double velocity, Vector& row, Index from) {
   const double way = velocity > 0.0 ? 1.0 : -1.0;
   for (std::size_t i = 0; i < fading_s.size(); ++i)
     for (const double change :
@@ -84,7 +84,7 @@ std::vector<Index> columns_of(unsigned parts) {
 }
 
 /// Speed's hats, by region of the travel.
-void over_region(double place_share, double speed_share, Eigen::Ref<Vector> row, Index from) {
+void over_region(double place_share, double speed_share, Vector& row, Index from) {
   const double at = std::clamp(place_share, 0.0, 1.0) * static_cast<double>(regions - 1);
   const Index i = std::min<Index>(static_cast<Index>(at), regions - 2);
   const double share = at - static_cast<double>(i);
