@@ -136,14 +136,11 @@ bool of_its_own(const std::vector<Jump>& jumps, double counts) {
   return others <= most_others * all && (std::abs(mark) < at_a_mark * all || not_given_back(jumps));
 }
 
-/// Lost one time and gained another is what an encoder that jitters looks like too, and the encoder's own steps alone are
-/// short where an axis sticks; lost counts stay lost, and beside steps alone no more than they.
-bool all_stay(const std::vector<Jump>& jumps, double counts, Beside what) {
-  constexpr double share = 0.7, no_more = 1.4;  // more where two follow one another
-  return std::ranges::all_of(jumps, [&](const Jump& one) {
-    const double stay = std::copysign(1.0, one.counts) * one.stay;
-    return stay >= share * counts && (what == Beside::table || stay <= no_more * counts);
-  });
+/// Lost one time and gained another is what an encoder that jitters looks like too; lost counts stay lost.
+bool all_stay(const std::vector<Jump>& jumps, double counts) {
+  constexpr double share = 0.7;  // more where two follow one another
+  return std::ranges::all_of(jumps,
+                             [&](const Jump& one) { return std::copysign(1.0, one.counts) * one.stay >= share * counts; });
 }
 
 void give_back(std::vector<Recording>& runs, const plant::AxisParameters& axis, double counts, Beside what) {
@@ -170,7 +167,7 @@ std::optional<LostCounts> give_back(Case& data, Beside what) {
   if (!of_its_own(lost, counts)) return std::nullopt;
   const auto gained = std::ranges::count_if(lost, [](const Jump& one) { return one.counts < 0.0; });
   const bool both = gained > 0 && gained < static_cast<std::ptrdiff_t>(lost.size());
-  if ((both || what == Beside::itself) && !all_stay(lost, counts, what)) return std::nullopt;
+  if (both && !all_stay(lost, counts)) return std::nullopt;
   for (auto* runs : {&data.fit, &data.holdout}) give_back(*runs, data.axis, counts, what);
   double squares = 0.0;
   for (const Jump& one : lost) squares += std::pow(std::abs(one.counts) - counts, 2);

@@ -10,9 +10,9 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-/// The power equation's rows of all runs.
-Vector power_rows(const InverseModel& model, const Candidate& at) {
-  const Vector all = model.residual(at.axis, at.effects);
+/// The power equation's rows of all runs. @param contacts friction, of which the power knows nothing: followed once
+Vector power_rows(const InverseModel& model, const Candidate& at, const std::vector<ContactForces>& contacts) {
+  const Vector all = model.residual(at.axis, at.effects, contacts);
   std::vector<double> rows;
   for (const auto& s : model.segments())
     if (model.equations()[s.equation].power) rows.insert(rows.end(), all.data() + s.start, all.data() + s.start + s.size);
@@ -26,17 +26,18 @@ std::optional<TorqueByPower> torque_by_power(const Fitter& fitter, const Candida
   constexpr Index least_rows_a_number = 4;
   const auto& inverse = fitter.model();
   if (!inverse.power_recorded() || inverse.tracks().front().meter.of_command) return std::nullopt;
-  const Vector left = power_rows(inverse, model);
+  const auto contacts = inverse.contacts(model.axis, model.effects);
+  const Vector left = power_rows(inverse, model, contacts);
   std::vector<Vector> columns;
   for (const auto& number : fitter.base()) {
     if (!number.only_power) continue;
     Candidate more = model;
     set_value(number, more.axis, value_of(number, model.axis) + step);
-    columns.push_back((left - power_rows(inverse, more)) / step);
+    columns.push_back((left - power_rows(inverse, more, contacts)) / step);
   }
   Candidate more = model;
   more.effects.push_back({&hypothesis("torque_gain_error"), {step}});
-  columns.push_back((left - power_rows(inverse, more)) / step);
+  columns.push_back((left - power_rows(inverse, more, contacts)) / step);
   const auto count = static_cast<Index>(columns.size());
   if (left.size() < least_rows_a_number * count) return std::nullopt;
   Eigen::MatrixXd rows(left.size(), count);
@@ -48,7 +49,7 @@ std::optional<TorqueByPower> torque_by_power(const Fitter& fitter, const Candida
 }
 
 bool denied_by_power(const Fitter& fitter, const Candidate& model, std::size_t effect) {
-  // of true ones it was within a fiftieth; false ones were off by half of their size and more
+  // of true ones it was within 4 %; false ones were off by half of their size and more
   constexpr double clearly_off = 0.3, surely_deviations = 2.4;
   const Active& named = model.effects[effect];
   if (named.hypothesis != &hypothesis("torque_gain_error")) return false;

@@ -48,6 +48,18 @@ TEST(Arbiter, PutsTheRightEffectInTheWrongOnesPlaceAndLeavesTheRightOne) {
   EXPECT_EQ(settled(made, {&hypothesis("cogging"), {0.0, 0.0, 8.0}}), "cogging");
 }
 
+// Growth that is over at once is a lead that is wrong.
+TEST(Arbiter, OfACaseOfTheOtherTheSimplerIsToldWhereItIsAsLikely) {
+  const auto &growth = hypothesis("screw_growth"), &lead = hypothesis("lead_error"), &gap = hypothesis("backlash");
+  EXPECT_EQ(between(growth, lead, 10.0, false), Between::rival_takes_the_place);
+  EXPECT_EQ(between(growth, lead, -10.0, false), Between::both_in_question);
+  EXPECT_EQ(between(growth, lead, -300.0, true), Between::named_stays);
+  EXPECT_EQ(between(lead, growth, of_consequence_nats / 2.0, false), Between::named_stays);
+  EXPECT_EQ(between(lead, growth, 50.0, false), Between::both_in_question);
+  EXPECT_EQ(between(lead, growth, 300.0, true), Between::rival_takes_the_place);
+  EXPECT_EQ(between(growth, gap, 10.0, false), Between::both_in_question) << "neither is a case of the other";
+}
+
 TEST(Arbiter, ARivalThatSpoilsAChannelTakesNoPlace) {
   auto truth = plant::source_axis();
   truth.effects.push_back(tests::effect("backlash", {{"gap_m", 8e-6}}));

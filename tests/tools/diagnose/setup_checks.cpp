@@ -162,6 +162,17 @@ TEST(SetupChecks, WhereTheTableStaysShortAsWellNothingIsLost) {
   for (const auto& fault : mend_setup(data)) EXPECT_NE(fault.id, "count_loss") << fault.sentence;
 }
 
+// A screw that gives where friction lets go makes a few such steps of a few counts.
+TEST(SetupChecks, FewCountsMustBeLostMoreOften) {
+  for (const auto& [counts, often] : {std::pair{7.0, 5}, {7.0, 9}, {14.0, 5}}) {
+    Case data = recorded_with(plant::source_axis());
+    std::vector<double> moments_s;
+    for (int i = 0; i < often; ++i) moments_s.push_back(0.31 + 0.37 * i);
+    lose(data.fit[0], counts, moments_s);
+    EXPECT_EQ(mend_setup(data).empty(), counts < 10.0 && often < 8) << counts << " counts, " << often << " times";
+  }
+}
+
 // A mark that is passed back gives back what it took; a place that takes counts at every pass is no such mark.
 TEST(SetupChecks, CountsLostAtOnePlaceEachTimeAreLostAtMomentsOfTheirOwn) {
   Case data;

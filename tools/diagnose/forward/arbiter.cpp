@@ -15,6 +15,13 @@ constexpr double hopeless = 0.5;
 
 }  // namespace
 
+Between between(const Hypothesis& named, const Hypothesis& rival, double better_nats, bool clear) {
+  if (clear) return better_nats < 0.0 ? Between::named_stays : Between::rival_takes_the_place;
+  if (named.special_case == rival.id && better_nats >= 0.0) return Between::rival_takes_the_place;
+  if (rival.special_case == named.id && better_nats < of_consequence_nats) return Between::named_stays;
+  return Between::both_in_question;
+}
+
 bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t e,
                         std::vector<const Hypothesis*>& beaten) const {
   const auto* named = fit.model.effects[e].hypothesis;
@@ -46,10 +53,9 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
     const bool clear = can_tell && std::abs(better) > clearly_nats &&
                        std::copysign(difference.deviations, better) == difference.deviations &&
                        std::abs(difference.deviations) > clearly_deviations;
-    const bool special = named->special_case == score.hypothesis->id, general = score.hypothesis->special_case == named->id;
-    const bool settled = clear || (special && better >= 0.0) || (general && better < of_consequence_nats);
-    if (!settled) entry->rivals.push_back(score.hypothesis);
-    if (!settled || rival.value < now.value || spoils_a_channel(forward_, rival.model, now.fit.model)) continue;
+    const Between found_between = between(*named, *score.hypothesis, better, clear);
+    if (found_between == Between::both_in_question) entry->rivals.push_back(score.hypothesis);
+    if (found_between != Between::rival_takes_the_place || spoils_a_channel(forward_, rival.model, now.fit.model)) continue;
     beaten.push_back(named);
     entry->effect = rival.model.effects[e];
     entry->rivals.clear();

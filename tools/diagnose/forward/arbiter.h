@@ -10,6 +10,12 @@
 
 namespace feedtwin::tools::diagnosis {
 
+/// What comes of a named effect and a rival in its place.
+enum class Between { named_stays, rival_takes_the_place, both_in_question };
+/// @param better_nats how much likelier the rival is  @param clear beyond doubt, one way or the other
+/// Of two of which one is a case of the other (Hypothesis::special_case) the simpler is told where it is as likely.
+[[nodiscard]] Between between(const Hypothesis& named, const Hypothesis& rival, double better_nats, bool clear);
+
 class Arbiter {
  public:
   Arbiter(const ForwardModel& forward, const Fitter& fitter, const std::function<void(std::string_view)>& progress)
