@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
+#include <vector>
 
 #include "tools/parallel.h"
 
@@ -23,15 +24,30 @@ VectorXd least_squares(const MatrixXd& columns, const VectorXd& values) {
   return columns.colPivHouseholderQr().solve(values);
 }
 
-MatrixXd gram(const MatrixXd& columns) {
-  constexpr Eigen::Index width = 8;  // of a piece of work, whatever the cores: the same sums in the same order
-  const Eigen::Index n = columns.cols();
-  MatrixXd products(n, n);
-  parallel_for(static_cast<std::size_t>((n + width - 1) / width), [&](std::size_t piece) {
-    const Eigen::Index first = static_cast<Eigen::Index>(piece) * width, own = std::min(width, n - first);
-    products.block(first, first, n - first, own).noalias() =
-        columns.rightCols(n - first).transpose() * columns.middleCols(first, own);
+VectorXd transposed_times(const MatrixXd& columns, const VectorXd& values) {
+  VectorXd products(columns.cols());
+  parallel_for(static_cast<std::size_t>(columns.cols()), [&](std::size_t column) {
+    const auto i = static_cast<Eigen::Index>(column);
+    products[i] = columns.col(i).dot(values);
   });
+  return products;
+}
+
+MatrixXd gram(const MatrixXd& columns) {
+  // rows that stay in a core's cache while they are multiplied; pieces of work whatever the cores: the same sums in the same
+  // order
+  constexpr Eigen::Index block = 512, pieces = 32;
+  const Eigen::Index n = columns.cols(), rows = columns.rows();
+  std::vector<MatrixXd> parts(static_cast<std::size_t>(pieces));
+  parallel_for(parts.size(), [&](std::size_t piece) {
+    MatrixXd& part = parts[piece] = MatrixXd::Zero(n, n);
+    for (Eigen::Index first = static_cast<Eigen::Index>(piece) * block; first < rows; first += pieces * block) {
+      const auto some = columns.middleRows(first, std::min(block, rows - first));
+      part.selfadjointView<Eigen::Lower>().rankUpdate(some.transpose());
+    }
+  });
+  MatrixXd products = MatrixXd::Zero(n, n);
+  for (const MatrixXd& part : parts) products += part;
   products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
   return products;
 }

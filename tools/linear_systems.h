@@ -12,7 +12,9 @@ namespace feedtwin::tools {
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& symmetric);
 /// The x that brings A x closest to b; columns that others make up get no part.
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
-/// A^T A, on all cores.
+/// A^T b, on all cores.
+[[nodiscard]] Eigen::VectorXd transposed_times(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
+/// A^T A, likewise.
 [[nodiscard]] Eigen::MatrixXd gram(const Eigen::MatrixXd& columns);
 /// Orthonormal columns that span what the given ones do, as many of them.
 [[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);

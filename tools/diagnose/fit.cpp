@@ -5,6 +5,7 @@
 
 #include "tools/diagnose/lines.h"
 #include "tools/diagnose/neighbours.h"
+#include "tools/freed_memory.h"
 #include "tools/linear_systems.h"
 #include "tools/parallel.h"
 
@@ -155,11 +156,14 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
   auto next = contacts.begin() + 1;
   for (const auto& one : beside) own.push_back(one.refollow ? &*next++ : &contacts.front());
   fit.jacobian.resize(fit.white.size(), static_cast<Index>(beside.size()));
+  ask_for_large_pages(fit.jacobian.data(), static_cast<std::size_t>(fit.jacobian.size()) * sizeof(double));
   parallel_for(beside.size(), [&](std::size_t u) {
     const auto& [near, step, refollow] = beside[u];
     auto column = fit.jacobian.col(static_cast<Index>(u));
-    column.setZero();
-    if (step == 0.0) return;
+    if (step == 0.0) {
+      column.setZero();
+      return;
+    }
     column.head(model_.rows()) = neighbours.fall(near.axis, near.effects, *own[u]) / step;
     column.tail(static_cast<Index>(base_.size())) = (deviations(near.axis) - deviations(at.axis)) / step;
     whitening.apply(model_, column.head(model_.rows()));
@@ -177,7 +181,7 @@ Fit Fitter::fit(const Candidate& start, const Whitening& whitening, int iteratio
   constexpr double fast_share = 1e-3;  // steps are bounded, and from a far start a few do not arrive
   Fit best = linearised(start, whitening);
   for (int i = 0; i < longer * iterations; ++i) {
-    const Vector slope = best.jacobian.transpose() * best.white;
+    const Vector slope = transposed_times(best.jacobian, best.white);
     const std::vector<Index> untrue = without_true_slope(best);
     bool better = false;
     Candidate next;

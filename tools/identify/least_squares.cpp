@@ -6,7 +6,9 @@
 #include <limits>
 #include <span>
 
+#include "tools/freed_memory.h"
 #include "tools/linear_systems.h"
+#include "tools/parallel.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -18,6 +20,13 @@ using Eigen::VectorXd;
 double cost_of(const Eigen::Ref<const VectorXd>& residuals) {
   const double cost = 0.5 * residuals.squaredNorm();
   return std::isfinite(cost) ? cost : std::numeric_limits<double>::infinity();
+}
+
+/// On all cores: a Jacobian of some hundred thousand rows goes no faster than memory gives it.
+template <class Matrix, class Work>
+void for_each_column(Matrix& matrix, const Work& work) {
+  parallel_for(static_cast<std::size_t>(matrix.cols()),
+               [&](std::size_t i) { work(static_cast<Index>(i), matrix.col(static_cast<Index>(i))); });
 }
 
 /// Forward differences, backward where a bound is in the way; the point itself comes along in the first column.
@@ -32,8 +41,11 @@ void linearise(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
   const MatrixXd residuals = problem.residuals(points);
   at.residuals = residuals.col(0);
   at.cost = cost_of(at.residuals);
-  at.jacobian.resize(residuals.rows(), n);
-  for (Index i = 0; i < n; ++i) at.jacobian.col(i) = (residuals.col(i + 1) - residuals.col(0)) / step[i];
+  if (at.jacobian.size() != residuals.rows() * n) {
+    at.jacobian.resize(residuals.rows(), n);
+    ask_for_large_pages(at.jacobian.data(), static_cast<std::size_t>(at.jacobian.size()) * sizeof(double));
+  }
+  for_each_column(at.jacobian, [&](Index i, auto column) { column = (residuals.col(i + 1) - residuals.col(0)) / step[i]; });
 }
 
 /// The damped step within the bounds: an unknown that it would take beyond one goes as far as that, and the others make the
@@ -80,9 +92,12 @@ VectorXd damped_point(const LeastSquaresProblem& problem, const LeastSquaresSolu
 
 /// Slopes under which the step would have ended where it did, and no others than needed, all unknowns by their own measure.
 void correct_slopes(LeastSquaresSolution& at, const VectorXd& moved, const VectorXd& residuals) {
-  const VectorXd measured = at.jacobian.colwise().squaredNorm().transpose().cwiseProduct(moved);
+  VectorXd measured(moved.size());
+  for_each_column(at.jacobian, [&](Index i, auto column) { measured[i] = column.squaredNorm() * moved[i]; });
   const double length = measured.dot(moved);
-  if (length > 0.0) at.jacobian += (residuals - at.residuals - at.jacobian * moved) * (measured / length).transpose();
+  if (!(length > 0.0)) return;
+  const VectorXd missed = residuals - at.residuals - at.jacobian * moved;
+  for_each_column(at.jacobian, [&](Index i, auto column) { column += missed * (measured[i] / length); });
 }
 
 /// The best of the steps that one batch tries at once.
@@ -113,7 +128,7 @@ Step best_step(const LeastSquaresProblem& problem, const LeastSquaresSolution& a
   constexpr std::array many{0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4};
   constexpr std::array bold{0.0, 1.0}, shorter{30.0, 1e3};  // where slopes are kept a step costs as they do
   const MatrixXd normal = gram(at.jacobian);
-  const VectorXd gradient = at.jacobian.transpose() * at.residuals;
+  const VectorXd gradient = transposed_times(at.jacobian, at.residuals);
   for (;;) {
     const auto best_by = [&](std::span<const double> factors) {
       return best_of(problem, at, normal, gradient, damping, factors);
@@ -137,7 +152,7 @@ double promise(const MatrixXd& normal, const VectorXd& gradient, Index unknowns)
 /// What the unknowns that are asked about promise beyond the others.
 double promise_of_asked(const LeastSquaresProblem& problem, const LeastSquaresSolution& at) {
   const MatrixXd normal = gram(at.jacobian);
-  const VectorXd gradient = at.jacobian.transpose() * at.residuals;
+  const VectorXd gradient = transposed_times(at.jacobian, at.residuals);
   const Index all = gradient.size();
   return promise(normal, gradient, all) - promise(normal, gradient, all - problem.asked);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "tools/freed_memory.h"
 #include "tools/identify/innovations.h"
 #include "tools/identify/sliding.h"
 #include "tools/parallel.h"
@@ -123,6 +124,7 @@ ResidualStack::ByChannel ResidualStack::residuals_of(std::size_t run, Simulated&
 
 MatrixXd ResidualStack::own(const MatrixXd& points) {
   MatrixXd all(total_rows(), points.cols());
+  ask_for_large_pages(all.data(), static_cast<std::size_t>(all.size()) * sizeof(double));
   const std::size_t stretches = channels();
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     auto simulated = simulate_(runs_[r], points);
@@ -266,8 +268,7 @@ double ResidualStack::reading(std::size_t run, std::size_t i) const {
 }
 
 void ResidualStack::even_out(std::size_t run, std::vector<double>& residuals) const {
-  if (growth_ > 0.0)
-    for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] /= 1.0 + growth_ * reading(run, i);
+  for (std::size_t i = 0; growth_ > 0.0 && i < residuals.size(); ++i) residuals[i] /= 1.0 + growth_ * reading(run, i);
 }
 
 /// All runs give the channels that the first one gave when it was weighed.
