@@ -184,7 +184,7 @@ class Diagnosing {
     for (const auto& one : found_.found) {
       const auto now = std::ranges::find(fit_.model.effects, one.effect.hypothesis, &Active::hypothesis);
       if (now == fit_.model.effects.end()) continue;
-      if (worth_naming(*now))
+      if (worth_naming(*now, fit_.model.axis))
         result_.effects.push_back(named_effect(one, fit_, covariance_, model_));
       else
         progress_(fmt::format("{} is of a size that other physics has too: not named", in_words(*now, fit_.model.axis)));

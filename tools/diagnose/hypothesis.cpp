@@ -25,8 +25,8 @@ bool possible(const Active& active, const plant::AxisParameters& axis) {
   return active.hypothesis->admissible == nullptr || active.hypothesis->admissible(active.q, axis);
 }
 
-bool worth_naming(const Active& active) {
-  return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q);
+bool worth_naming(const Active& active, const plant::AxisParameters& axis) {
+  return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q, axis);
 }
 
 bool bears_out(const Active& active, std::string_view channel) {

@@ -147,7 +147,7 @@ struct Hypothesis {
   std::string_view (*reading)(std::span<const double> q) = nullptr;
   bool about_reversals = false;  ///< acts there first: its strength counts there too
   /// Is this size a finding? Smaller ones stay in the model as nuisances, since they explain how the channels read.
-  bool (*finding)(std::span<const double> q) = nullptr;
+  bool (*finding)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
   std::vector<std::string_view> confused_with;
   /// What it holds with some of its numbers, as growth that is over at once holds a wrong lead: told where it is as likely.
   std::string_view special_case = {};
@@ -206,7 +206,7 @@ struct Active {
 /// "cogging (amplitude_Nm 0.012, cycles_per_rev 12)"
 [[nodiscard]] std::string in_words(const Active& active, const plant::AxisParameters& axis);
 /// A size that is a finding; a smaller one stays in the model as a nuisance, since it explains how the channels read.
-[[nodiscard]] bool worth_naming(const Active& active);
+[[nodiscard]] bool worth_naming(const Active& active, const plant::AxisParameters& axis);
 /// May this channel bear the effect out? All do but for what only changes how a sensor reads.
 [[nodiscard]] bool bears_out(const Active& active, std::string_view channel);
 /// Is it so small that the runs alone may tell it, though no channel comes closer?

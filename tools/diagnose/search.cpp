@@ -189,7 +189,8 @@ class Search {
       if (has(fit_.model, *rival) || score.gain < 0.7 * own || last_.leaves_to(score) || ++tried > rivals_tried) continue;
       const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, refit_iterations);
       const Active& other = fit.model.effects.back();
-      if (!worth_naming(other) || !possible(other, fit.model.axis) || !judged(fitter_, fit, less, *rival, bar_).enough)
+      if (!worth_naming(other, fit.model.axis) || !possible(other, fit.model.axis) ||
+          !judged(fitter_, fit, less, *rival, bar_).enough)
         continue;
       const double more = bar_.per_parameter *
                           (static_cast<double>(freedom(*rival)) - static_cast<double>(freedom(*found.effect.hypothesis)));
@@ -224,7 +225,7 @@ class Search {
     const auto there = rows_of(model, fit_, less[effect]);
     double largest = 0.0;
     for (std::size_t other = 0; other < less.size(); ++other)
-      if (other != effect && worth_naming(fit_.model.effects[other]))
+      if (other != effect && worth_naming(fit_.model.effects[other], fit_.model.axis))
         largest = std::max(largest, strengths(model, fit_, less[other], false, bar_, there)[equation]);
     return largest;
   }

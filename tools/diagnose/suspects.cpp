@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t most_asked = 4;
 constexpr double share_of_strength = 0.7;  // of what it takes to be named
 
-bool can_be_suspected(const Score& score, const Screen& left, const Bar& bar) {
+bool can_be_suspected(const Score& score, const plant::AxisParameters& axis, const Screen& left, const Bar& bar) {
   const Hypothesis& h = *score.hypothesis;
-  return !h.absorbed && !h.number_of_the_model && worth_naming({&h, score.q}) && score.gain > bar.gain &&
+  return !h.absorbed && !h.number_of_the_model && worth_naming({&h, score.q}, axis) && score.gain > bar.gain &&
          left.p_false_alarm(score.standard) < bar.p_false_alarm;
 }
 
@@ -34,12 +34,12 @@ std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, c
   std::vector<Suspect> all;
   std::size_t tried = 0;
   for (const auto& score : found.last.scores) {
-    if (!can_be_suspected(score, found.last, bar)) continue;
+    if (!can_be_suspected(score, fit.model.axis, found.last, bar)) continue;
     if (++tried > most_asked) break;
     const Fit with = fit_with(fitter, fit.model, score, fit.model.effects.size(), found.whitening, refit_iterations);
     const Active& active = with.model.effects.back();
     const auto& h = *score.hypothesis;
-    if (!possible(active, with.model.axis) || !worth_naming(active)) continue;
+    if (!possible(active, with.model.axis) || !worth_naming(active, with.model.axis)) continue;
     const double strong = strength(fitter.model(), with, fit, h.about_reversals, bar);
     const bool held = holds(fitter.model(), with, fit, bar);
     progress(fmt::format("suspected: {} (strength {:.2f}, p {:.1g}{})", h.id, strong,

@@ -30,8 +30,9 @@ bool only_a_bite(const Structure& after, const Squares& squares) {
 /// Most of what the runs are off by is the name's: a hidden compensation that the numbers had half taken up left 9 times as
 /// much without it, of which the structure that was left with it was a bite.
 bool explains_most(const SearchResult& found) {
-  return std::ranges::any_of(found.found, [](const Found& one) {
-    return one.error_ratio > explains_most_ratio && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
+  return std::ranges::any_of(found.found, [&](const Found& one) {
+    return one.error_ratio > explains_most_ratio && rests_on_force(*one.effect.hypothesis) &&
+           worth_naming(one.effect, found.final.model.axis);
   });
 }
 
@@ -41,8 +42,8 @@ bool explains_most(const SearchResult& found) {
 bool certain(const SearchResult& found, const Structure& after, const Squares& squares) {
   constexpr double most_left = 0.5, gives_way = 0.2;
   if (squares.share_left() > most_left || after.gives_way > gives_way) return explains_most(found);
-  return std::ranges::any_of(found.found, [](const Found& one) {
-    return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect);
+  return std::ranges::any_of(found.found, [&](const Found& one) {
+    return one.held_everywhere && rests_on_force(*one.effect.hypothesis) && worth_naming(one.effect, found.final.model.axis);
   });
 }
 
@@ -71,8 +72,9 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
   // where nothing is named all of it is unexplained: made cases with nothing hidden had at most 0.09 N of it, or 12 % where
   // an axis hunts about its rests; of thirty outside the catalogue the least had 0.29 N, and 13 %
   constexpr double where_nothing_is_named = least_share, least_where_nothing_is_named_N = 0.2;
-  const bool nothing_named = std::ranges::none_of(
-      final.effects, [](const Active& active) { return worth_naming(active) && rests_on_force(*active.hypothesis); });
+  const bool nothing_named = std::ranges::none_of(final.effects, [&](const Active& active) {
+    return worth_naming(active, final.axis) && rests_on_force(*active.hypothesis);
+  });
   const auto& structure_of = fitter.structure();
   const Structure before = structure_of.remaining(found.recalibrated.residual);
   const Structure after = structure_of.remaining(fitter.model().residual(final.axis, final.effects));

@@ -49,7 +49,7 @@ TEST(AskHowStiff, AScrewThatYieldsIsNoLateSensor) {
   ASSERT_EQ(asked.fit.model.effects.size(), 1U);
   EXPECT_EQ(asked.fit.model.effects[0].hypothesis->id, "screw_compliance");
   EXPECT_NEAR(1.0 / asked.fit.model.effects[0].q[0], 1.7e8, 0.03 * 1.7e8);
-  EXPECT_FALSE(worth_naming(asked.fit.model.effects[0]));
+  EXPECT_FALSE(worth_naming(asked.fit.model.effects[0], asked.fit.model.axis));
   ASSERT_TRUE(asked.settled.has_value());
   EXPECT_EQ(asked.settled->model.effects.size(), 1U);
 }

@@ -48,7 +48,7 @@ void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchRes
   };
   for (std::size_t e = fit.model.effects.size(); e-- > 0;) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
-    if (!worth_naming(fit.model.effects[e]) || hypothesis->number_of_the_model) continue;
+    if (!worth_naming(fit.model.effects[e], fit.model.axis) || hypothesis->number_of_the_model) continue;
     if (denied_by_power(fitter, fit.model, e)) {
       progress(
           fmt::format("{}: the power that was measured says otherwise", in_words(fit.model.effects[e], fit.model.axis)));

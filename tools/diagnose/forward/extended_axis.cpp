@@ -76,13 +76,13 @@ AxisByRun with_phases_of(const Candidate& model, plant::AxisParameters axis) {
   return all;
 }
 
-AxisByRun extended(const Candidate& candidate, const std::function<bool(const Active&)>& kept) {
+AxisByRun extended(const Candidate& candidate, const Kept& kept) {
   plant::AxisParameters axis = candidate.axis;
   keep_breakaway(axis.ball_screw);
   keep_breakaway(axis.guide);
   for (const auto& active : candidate.effects) {
     const auto* entry = plant::find_effect(active.hypothesis->id);
-    if (entry == nullptr || (kept && !kept(active))) continue;
+    if (entry == nullptr || (kept && !kept(active, candidate.axis))) continue;
     auto setting = plant::preset_of(*entry);
     for (const auto& [name, value] : active.hypothesis->named(active.q, candidate.axis)) {
       double* place = plant::value_in(setting, *entry, name);
@@ -101,7 +101,8 @@ AxisByRun extended(const Candidate& candidate, const std::function<bool(const Ac
 
 std::vector<AxisByRun> ways_of(const Candidate& candidate) {
   std::vector<AxisByRun> ways{extended(candidate, worth_naming)};
-  if (!std::ranges::all_of(candidate.effects, worth_naming)) ways.push_back(extended(candidate));
+  const auto is_finding = [&](const Active& active) { return worth_naming(active, candidate.axis); };
+  if (!std::ranges::all_of(candidate.effects, is_finding)) ways.push_back(extended(candidate));
   return ways;
 }
 

@@ -40,7 +40,7 @@ class Asked {
     for (std::size_t e = 0; e < fit.model.effects.size(); ++e) {
       const auto* hypothesis = fit.model.effects[e].hypothesis;
       auto* named = found.of(hypothesis);
-      if (named == nullptr || !worth_naming(fit.model.effects[e])) continue;
+      if (named == nullptr || !worth_naming(fit.model.effects[e], fit.model.axis)) continue;
       if (named->missed_nats > surely_missed * std::max(100.0, nats_to_stay(*named))) continue;
       Ruling rest = without_it(found, fit, settled, e);
       if (settled.value - rest.value < std::max(doubtful_nats, nats_to_stay(*named))) asked_fairly(settled, rest, e);

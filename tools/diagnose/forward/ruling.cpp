@@ -159,7 +159,7 @@ void contest(Ruling& one, Ruling& other, const ForwardModel& forward, const Fitt
 }
 
 bool can_be_named(const Active& active, const plant::AxisParameters& axis) {
-  return worth_naming(active) && possible(active, axis);
+  return worth_naming(active, axis) && possible(active, axis);
 }
 
 }  // namespace feedtwin::tools::diagnosis

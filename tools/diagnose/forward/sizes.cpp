@@ -85,7 +85,7 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
   for (std::size_t e = 0; e < fit.model.effects.size();) {
     const auto* hypothesis = fit.model.effects[e].hypothesis;
     const auto own = static_cast<Index>(freedom(*hypothesis));
-    if (!worth_naming(fit.model.effects[e])) {
+    if (!worth_naming(fit.model.effects[e], fit.model.axis)) {
       from += own, ++e;
       continue;
     }

@@ -54,7 +54,7 @@ Candidate with_punctual_force_sensor(Candidate model) {
     Active& skew = model.effects[e];
     if (skew.hypothesis != &hypothesis("channel_skew")) continue;
     skew.q.back() = 0.0;
-    return worth_naming(skew) ? model : without(model, e);
+    return worth_naming(skew, model.axis) ? model : without(model, e);
   }
   return model;
 }

@@ -44,7 +44,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 }
 
 /// Below it is how sensors are read.
-bool finding(std::span<const double> q) {
+bool finding(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   return std::max(q[0], q[1]) > 1.1e-3;
 }
 

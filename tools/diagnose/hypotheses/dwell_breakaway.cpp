@@ -48,7 +48,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 }
 
 /// What is there after a tenth of a second is friction about reversals too.
-bool finding(std::span<const double> q) {
+bool finding(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   return q[1] < 10.0;
 }
 

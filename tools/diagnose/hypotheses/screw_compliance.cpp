@@ -22,7 +22,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 }
 
 /// Stiffer than 100 N/um is no finding.
-bool finding(std::span<const double> q) {
+bool finding(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   return q[0] > 1e-8;
 }
 

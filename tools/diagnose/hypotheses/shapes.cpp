@@ -90,7 +90,7 @@ Grid frequencies(double low_Hz, double high_Hz) {
   return grid;
 }
 
-bool late_beyond_a_model(std::span<const double> q) {
+bool late_beyond_a_model(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   return q[0] > 6e-5;
 }
 
