@@ -37,16 +37,16 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 0.0;
 }
 
-/// Forces and paths as on an axis of 75 N whose screw's bristle yields 1.5 um (F_C / sigma0): on one of more, by so much
-/// less.
+/// Forces and paths as on an axis of 90 N whose screw's bristle yields 1.5 um (F_C / sigma0): on one of more, by so much
+/// less. What the memory holds is of the contact's own friction too: the fit takes it from that.
 struct AsOnUsualAxis {
   double force_N, distance_m;
 };
 
 AsOnUsualAxis as_on_usual_axis(std::span<const double> q, const plant::AxisParameters& axis) {
-  constexpr double usual_N = 75.0, usual_m = 1.5e-6;
+  constexpr double usual_N = 90.0, usual_m = 1.5e-6;
   const auto mean = [](const plant::Directional& both) { return 0.5 * (both.pos + both.neg); };
-  const double screw_N = mean(axis.ball_screw.coulomb_N), all_N = screw_N + mean(axis.guide.coulomb_N);
+  const double screw_N = mean(axis.ball_screw.coulomb_N) + q[0], all_N = screw_N + mean(axis.guide.coulomb_N);
   const double yields_m = screw_N / axis.ball_screw.stiffness_N_per_m;
   return {q[0] / std::max(1.0, all_N / usual_N), q[1] / std::max(1.0, yields_m / usual_m)};
 }
