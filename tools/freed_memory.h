@@ -5,7 +5,8 @@
 #include <sys/mman.h>
 
 #include <cstddef>
-#include <cstdint>
+#include <memory>
+#include <span>
 
 namespace feedtwin::tools {
 
@@ -19,12 +20,12 @@ inline void keep_freed_memory() noexcept {
 
 /// A larger block comes from the kernel each time; asked for in pages of two megabytes it comes in a few rather than in some
 /// ten thousand. No more than a wish: a kernel without them gives what it has.
-inline void ask_for_large_pages(const void* block, std::size_t bytes) noexcept {
-  constexpr std::uintptr_t page_bytes = 2 << 20;
-  const auto begin = reinterpret_cast<std::uintptr_t>(block);
-  const std::uintptr_t first = (begin + page_bytes - 1) / page_bytes * page_bytes;
-  if (first + page_bytes > begin + bytes) return;
-  ::madvise(reinterpret_cast<void*>(first), (begin + bytes - first) / page_bytes * page_bytes, MADV_HUGEPAGE);
+inline void ask_for_large_pages(std::span<double> block) noexcept {
+  constexpr std::size_t page_bytes = 2 << 20;
+  void* first = block.data();
+  std::size_t bytes = block.size_bytes();
+  if (std::align(page_bytes, page_bytes, first, bytes) != nullptr)
+    ::madvise(first, bytes / page_bytes * page_bytes, MADV_HUGEPAGE);
 }
 
 }  // namespace feedtwin::tools

@@ -156,7 +156,7 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
   auto next = contacts.begin() + 1;
   for (const auto& one : beside) own.push_back(one.refollow ? &*next++ : &contacts.front());
   fit.jacobian.resize(fit.white.size(), static_cast<Index>(beside.size()));
-  ask_for_large_pages(fit.jacobian.data(), static_cast<std::size_t>(fit.jacobian.size()) * sizeof(double));
+  ask_for_large_pages({fit.jacobian.data(), static_cast<std::size_t>(fit.jacobian.size())});
   parallel_for(beside.size(), [&](std::size_t u) {
     const auto& [near, step, refollow] = beside[u];
     auto column = fit.jacobian.col(static_cast<Index>(u));

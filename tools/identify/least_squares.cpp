@@ -43,7 +43,7 @@ void linearise(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
   at.cost = cost_of(at.residuals);
   if (at.jacobian.size() != residuals.rows() * n) {
     at.jacobian.resize(residuals.rows(), n);
-    ask_for_large_pages(at.jacobian.data(), static_cast<std::size_t>(at.jacobian.size()) * sizeof(double));
+    ask_for_large_pages({at.jacobian.data(), static_cast<std::size_t>(at.jacobian.size())});
   }
   for_each_column(at.jacobian, [&](Index i, auto column) { column = (residuals.col(i + 1) - residuals.col(0)) / step[i]; });
 }

@@ -124,7 +124,7 @@ ResidualStack::ByChannel ResidualStack::residuals_of(std::size_t run, Simulated&
 
 MatrixXd ResidualStack::own(const MatrixXd& points) {
   MatrixXd all(total_rows(), points.cols());
-  ask_for_large_pages(all.data(), static_cast<std::size_t>(all.size()) * sizeof(double));
+  ask_for_large_pages({all.data(), static_cast<std::size_t>(all.size())});
   const std::size_t stretches = channels();
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     auto simulated = simulate_(runs_[r], points);
