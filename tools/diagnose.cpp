@@ -11,8 +11,8 @@
 #include "tools/diagnose/diagnosis.h"
 #include "tools/diagnose/diagnosis_json.h"
 #include "tools/diagnose/hil.h"
-#include "tools/freed_memory.h"
 #include "tools/json_option.h"
+#include "tools/large_blocks.h"
 #include "tools/recording/case.h"
 #include "tools/verb.h"
 

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "tools/large_blocks.h"
+
 namespace feedtwin::tools {
 namespace {
 
@@ -30,6 +32,19 @@ TEST(LinearSystems, HoldOverRandomOnes) {
     const MatrixXd q = orthonormal(tall);
     EXPECT_LT((q.transpose() * q - MatrixXd::Identity(n, n)).norm(), 1e-12);
     EXPECT_LT((tall - q * (q.transpose() * tall)).norm(), 1e-12 * tall.norm());
+  }
+}
+
+TEST(LinearSystems, ProductsOfMoreRowsThanACacheHoldsAreTheSame) {
+  std::mt19937 random(6);
+  for (const Index rows : {511, 512, 513, 16384, 16385, 40001}) {
+    MatrixXd tall = random_matrix(rows, 7, random);
+    const VectorXd values = random_matrix(rows, 1, random);
+    const MatrixXd products = tall.transpose() * tall;
+    const VectorXd with_values = tall.transpose() * values;
+    ask_for_large_pages(tall);
+    EXPECT_LT((gram(tall) - products).norm(), 1e-13 * products.norm()) << rows;
+    EXPECT_LT((transposed_times(tall, values) - with_values).norm(), 1e-13 * tall.norm() * values.norm()) << rows;
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "tools/diagnose/lines.h"
 #include "tools/diagnose/neighbours.h"
-#include "tools/freed_memory.h"
+#include "tools/large_blocks.h"
 #include "tools/linear_systems.h"
 #include "tools/parallel.h"
 
@@ -156,7 +156,7 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
   auto next = contacts.begin() + 1;
   for (const auto& one : beside) own.push_back(one.refollow ? &*next++ : &contacts.front());
   fit.jacobian.resize(fit.white.size(), static_cast<Index>(beside.size()));
-  ask_for_large_pages({fit.jacobian.data(), static_cast<std::size_t>(fit.jacobian.size())});
+  ask_for_large_pages(fit.jacobian);
   parallel_for(beside.size(), [&](std::size_t u) {
     const auto& [near, step, refollow] = beside[u];
     auto column = fit.jacobian.col(static_cast<Index>(u));

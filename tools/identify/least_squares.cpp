@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "tools/freed_memory.h"
+#include "tools/large_blocks.h"
 #include "tools/linear_systems.h"
 #include "tools/parallel.h"
 
@@ -41,10 +41,8 @@ void linearise(const LeastSquaresProblem& problem, LeastSquaresSolution& at) {
   const MatrixXd residuals = problem.residuals(points);
   at.residuals = residuals.col(0);
   at.cost = cost_of(at.residuals);
-  if (at.jacobian.size() != residuals.rows() * n) {
-    at.jacobian.resize(residuals.rows(), n);
-    ask_for_large_pages({at.jacobian.data(), static_cast<std::size_t>(at.jacobian.size())});
-  }
+  at.jacobian.resize(residuals.rows(), n);
+  ask_for_large_pages(at.jacobian);
   for_each_column(at.jacobian, [&](Index i, auto column) { column = (residuals.col(i + 1) - residuals.col(0)) / step[i]; });
 }
 

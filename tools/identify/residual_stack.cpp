@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "tools/freed_memory.h"
 #include "tools/identify/innovations.h"
 #include "tools/identify/sliding.h"
+#include "tools/large_blocks.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools {
@@ -124,7 +124,7 @@ ResidualStack::ByChannel ResidualStack::residuals_of(std::size_t run, Simulated&
 
 MatrixXd ResidualStack::own(const MatrixXd& points) {
   MatrixXd all(total_rows(), points.cols());
-  ask_for_large_pages({all.data(), static_cast<std::size_t>(all.size())});
+  ask_for_large_pages(all);
   const std::size_t stretches = channels();
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     auto simulated = simulate_(runs_[r], points);

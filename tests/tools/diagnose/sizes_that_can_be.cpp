@@ -15,17 +15,20 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   const auto finding = [&](double force_N, double distance_m) {
     return worth_naming({&hypothesis("presliding_memory"), {force_N, distance_m}}, axis);
   };
+  EXPECT_TRUE(finding(80.0, 8e-6));
   EXPECT_TRUE(finding(8.0, 1.7e-5));
+  EXPECT_FALSE(finding(80.0, 1.5e-6)) << "a bristle's own stiffness";
   EXPECT_FALSE(finding(35.0, 6e-6)) << "a contact of many elements where the model has one bristle";
   EXPECT_FALSE(finding(3.6, 1.2e-5)) << "a screw that yields";
   EXPECT_TRUE(finding(4.1, 4.9e-5)) << "over more than any of them";
   EXPECT_FALSE(finding(1.9, 1.3e-5)) << "what is left of a torque constant";
-  EXPECT_FALSE(finding(80.0, 8e-6)) << "the contact's own shape, which has as much besides";
+  for (auto* coulomb_N : {&axis.ball_screw.coulomb_N, &axis.guide.coulomb_N}) *coulomb_N = {200.0, 200.0};
+  EXPECT_FALSE(finding(80.0, 8e-6)) << "a fifth of what the contacts have";
+  EXPECT_TRUE(finding(330.0, 8e-6));
   axis.ball_screw.coulomb_N = {4.0, 4.0};
-  EXPECT_TRUE(finding(80.0, 8e-6)) << "nearly all that the contact has";
-  EXPECT_FALSE(finding(80.0, 1.5e-6)) << "a bristle's own stiffness";
+  axis.guide.coulomb_N = {18.0, 18.0};
   axis.ball_screw.stiffness_N_per_m = 3.7e6;
-  EXPECT_FALSE(finding(11.0, 1.5e-5)) << "four times what its bristle yields";
+  EXPECT_FALSE(finding(11.0, 1.5e-5)) << "four times what its bristle yields, of which the memory has most";
   EXPECT_TRUE(finding(11.0, 6e-5));
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-// What a verb that simulates many runs does with memory.
+// What a verb that simulates many runs does with the large blocks of memory that it takes and gives back.
 
 #include <malloc.h>
 #include <sys/mman.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
-#include <span>
 
 namespace feedtwin::tools {
 
@@ -20,10 +20,10 @@ inline void keep_freed_memory() noexcept {
 
 /// A larger block comes from the kernel each time; asked for in pages of two megabytes it comes in a few rather than in some
 /// ten thousand. No more than a wish: a kernel without them gives what it has.
-inline void ask_for_large_pages(std::span<double> block) noexcept {
+inline void ask_for_large_pages(Eigen::MatrixXd& matrix) noexcept {
   constexpr std::size_t page_bytes = 2 << 20;
-  void* first = block.data();
-  std::size_t bytes = block.size_bytes();
+  void* first = matrix.data();
+  std::size_t bytes = static_cast<std::size_t>(matrix.size()) * sizeof(double);
   if (std::align(page_bytes, page_bytes, first, bytes) != nullptr)
     ::madvise(first, bytes / page_bytes * page_bytes, MADV_HUGEPAGE);
 }
