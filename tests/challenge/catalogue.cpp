@@ -4,16 +4,12 @@
 
 namespace feedtwin::challenge {
 
-double uniform(Shape& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
 double one_of(Shape& random, std::initializer_list<double> values) {
   return values.begin()[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];
 }
 
 double sign(Shape& random) {
-  return std::bernoulli_distribution(0.5)(random) ? 1.0 : -1.0;
+  return chance(random, 0.5) ? 1.0 : -1.0;
 }
 
 Wave wave(double amplitude, Shape& shape, std::initializer_list<double> cycles) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tests/challenge/chance.h"
 #include "tests/challenge/strength.h"
 
 namespace feedtwin::challenge {
@@ -12,13 +13,6 @@ namespace {
 using Random = std::mt19937_64;
 
 constexpr double least_residual_N = 0.5;  ///< below it nobody's model of a real axis gets
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-bool chance(Random& random, double p) {
-  return std::bernoulli_distribution(p)(random);
-}
 
 /// Every number times 1 + spread * normal, kept within three spreads.
 Axis spread_numbers(Axis axis, double spread, Random& random) {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/challenge/chance.h"
+
 namespace feedtwin::challenge {
 namespace {
 
-constexpr double two_pi = 6.283185307179586;
 constexpr double kN = 1000.0;  ///< element forces are kept in kN, so that one absolute tolerance does for all unknowns
 
 double wave(const Wave& w, double x, double lead_m) {

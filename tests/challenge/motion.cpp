@@ -4,14 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "tests/challenge/chance.h"
+
 namespace feedtwin::challenge {
 namespace {
-
-constexpr double two_pi = 6.283185307179586;
-
-double uniform(std::mt19937_64& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 double rise(double s) {
   s = std::clamp(s, 0.0, 1.0);

@@ -2,15 +2,13 @@
 // What the tables of hidden effects are written with. A line of a table: id, needed channels, seen in torque, wants dwell,
 // strength from, to, set, numbers, alike, number only.
 
-#include <random>
-
 #include "tests/challenge/catalogue.h"
+#include "tests/challenge/chance.h"
 
 namespace feedtwin::challenge {
 
 using Shape = std::mt19937_64;
 
-[[nodiscard]] double uniform(Shape& random, double low, double high);
 [[nodiscard]] double one_of(Shape& random, std::initializer_list<double> values);
 [[nodiscard]] double sign(Shape& random);
 [[nodiscard]] Wave wave(double amplitude, Shape& shape, std::initializer_list<double> cycles);
