@@ -8,8 +8,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr auto columns = {&Remainder::force_N, &Remainder::position_m, &Remainder::velocity_m_per_s,
-                          &Remainder::acceleration_m_per_s2, &Remainder::since_reversal_s};
+constexpr auto of_each_row = {&Remainder::force_N, &Remainder::position_m, &Remainder::velocity_m_per_s,
+                              &Remainder::acceleration_m_per_s2, &Remainder::since_reversal_s};
 
 Eigen::Map<Vector> force(Remainder& rows) {
   return {rows.force_N.data(), static_cast<Index>(rows.size())};
@@ -22,7 +22,7 @@ Remainder Remainder::part(std::size_t which, bool of_it) const {
   some.folds = folds;
   for (std::size_t k = 0; k < size(); ++k) {
     if ((fold[k] == which) != of_it) continue;
-    for (auto column : columns) (some.*column).push_back((this->*column)[k]);
+    for (auto column : of_each_row) (some.*column).push_back((this->*column)[k]);
     some.fold.push_back(fold[k]);
   }
   return some;

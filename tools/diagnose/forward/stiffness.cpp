@@ -17,7 +17,7 @@ namespace {
 constexpr std::array compliances_m_per_N{2e-9,   2.6e-9, 3.4e-9, 4.4e-9, 5.7e-9, 7.4e-9,
                                          9.6e-9, 1.3e-8, 1.7e-8, 2.2e-8, 2.9e-8, 4e-8};
 
-constexpr double least_deviations = 1.5;
+constexpr double other_than_rigid_deviations = 1.5;
 
 bool can_be_told(const Fitter& fitter, const Candidate& model) {
   const bool force_recorded = fitter.model().tracks().front().force_sensor_N.size() > 0;
@@ -74,7 +74,7 @@ std::optional<Ruling> ask_how_stiff(const ForwardModel& forward, const Fitter& f
   const double stiffness = 1.0 / yielding.model.effects.back().q.front();
   progress(fmt::format("closed loop, on a screw of {:.3g} N/m: {:+.0f} nats, {:+.1f} deviations", stiffness, better,
                        difference.deviations));
-  if (better < clearly_nats || difference.deviations < least_deviations) return rigid;
+  if (better < clearly_nats || difference.deviations < other_than_rigid_deviations) return rigid;
   if (punctual.effects.size() < fit.model.effects.size()) {
     progress("the screw yields: the force sensor is not late");
     std::erase_if(found.found, [](const Found& one) { return one.effect.hypothesis == &hypothesis("channel_skew"); });

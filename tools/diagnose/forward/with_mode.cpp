@@ -9,12 +9,12 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::string_view id = "learned_mode";
+constexpr std::string_view mode_id = "learned_mode";
 constexpr double most_damping_ratio = 0.5;
 
 Candidate with(Candidate model, const Mode& mode) {
-  std::erase_if(model.axis.effects, [](const plant::EffectSetting& effect) { return effect.id == id; });
-  model.axis.effects.push_back({std::string(id), {mode.mass_kg, mode.frequency_Hz, mode.damping_ratio}, {}});
+  std::erase_if(model.axis.effects, [](const plant::EffectSetting& effect) { return effect.id == mode_id; });
+  model.axis.effects.push_back({std::string(mode_id), {mode.mass_kg, mode.frequency_Hz, mode.damping_ratio}, {}});
   return model;
 }
 

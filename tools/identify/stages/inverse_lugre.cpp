@@ -9,7 +9,7 @@
 namespace feedtwin::tools {
 namespace {
 
-constexpr double tolerance = 2.5e-7;  // half the relative fall of the cost that another step would promise
+constexpr double cost_tolerance = 2.5e-7;  // half the relative fall of the cost that another step would promise
 
 lanes::MotionView view_of(const InverseLugre::Run& run) {
   return {run.velocity.size(), run.sample_s, run.velocity.data(), run.acceleration.data(), run.force_N.data()};
@@ -49,7 +49,7 @@ std::optional<InverseLugreFit> InverseLugre::fit(const InverseLugreStart& start)
   const Eigen::Vector3d x{-std::log(start.bristle_length_m),
                           std::log(std::max(start.static_over_coulomb - 1.0, 0.0) + small_rise),
                           std::log(start.stribeck_m_per_s)};
-  const auto [end, passes] = search_shape(InverseProjection(motion), bounds_for(fastest_m_per_s_), x, tolerance);
+  const auto [end, passes] = search_shape(InverseProjection(motion), bounds_for(fastest_m_per_s_), x, cost_tolerance);
   const auto shape = friction_shape(end.at);
   const InverseLugreFit fit{end.linear[0],
                             end.linear[1],
