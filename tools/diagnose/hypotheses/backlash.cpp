@@ -10,6 +10,8 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+constexpr double usual_stiffness_N_per_m = 6e7;
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   constexpr double pressing_N = 0.5;  // the force then tells which flank bears
@@ -25,7 +27,11 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"gap_m", q[0]}, {"stiffness_N_per_m", 1.0 / std::max(q[1], 1e-12)}, {"damping_Ns_per_m", std::exp(q[2])}};
+  // A flank that is as stiff as can be told does not ring longer for it: started with the damping of a soft one it bounced
+  // through a whole run, the force sensor's likelihood fell by 30000 nats, and a gap of 4.8 um was not missed.
+  const double stiffness_N_per_m = 1.0 / std::max(q[1], 1e-12);
+  const double damping_Ns_per_m = std::exp(q[2]) * std::sqrt(std::max(1.0, stiffness_N_per_m / usual_stiffness_N_per_m));
+  return {{"gap_m", q[0]}, {"stiffness_N_per_m", stiffness_N_per_m}, {"damping_Ns_per_m", damping_Ns_per_m}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
