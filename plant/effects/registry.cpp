@@ -29,6 +29,7 @@
 #include "plant/effects/motor_presliding.h"
 #include "plant/effects/payload.h"
 #include "plant/effects/position_friction.h"
+#include "plant/effects/position_friction_wave.h"
 #include "plant/effects/power_meter_window.h"
 #include "plant/effects/presliding_memory.h"
 #include "plant/effects/process_force.h"
@@ -73,6 +74,7 @@ constexpr std::array table{
     thermal_friction,
     friction_drift,
     position_friction,
+    position_friction_wave,
     load_dependent_friction,
     learned_residual,
     rev_ripple,

@@ -33,6 +33,14 @@ bool is_of(std::string_view key, std::string_view kind) {
   return key.find("." + std::string(kind) + "_") != std::string_view::npos;
 }
 
+/// Does the axis file have one number for both directions of this? Each number for forth is followed by that for back.
+bool same_both_ways(const Fitter& fitter, std::size_t i) {
+  const bool forth = fitter.base()[i].entry->key.find("_pos_") != std::string_view::npos;
+  const std::size_t other = forth ? i + 1 : i - 1;
+  return value_of(fitter.base()[i], fitter.nominal()) == value_of(fitter.base()[other], fitter.nominal());
+}
+
+/// Of the components whose friction the file does not tell by direction.
 Difference difference(const Fitter& fitter, const Fit& fit, Index unknowns, bool coulomb) {
   Difference sum{.slope = Vector::Zero(unknowns)};
   const double rad_per_m = 2.0 * std::numbers::pi / fit.model.axis.axis.lead_m;
@@ -41,28 +49,13 @@ Difference difference(const Fitter& fitter, const Fit& fit, Index unknowns, bool
     const auto key = parameter.entry->key;
     const bool motor = is_of(key, "damping");
     if (coulomb ? !is_of(key, "coulomb") : !is_of(key, "viscous") && !motor) continue;
+    if (!same_both_ways(fitter, i)) continue;
     const double to_table = motor ? rad_per_m * rad_per_m : 1.0;
     const bool forth = key.find("_pos_") != std::string_view::npos;
     (forth ? sum.forth : sum.back) += to_table * value_of(parameter, fit.model.axis);
     sum.slope[static_cast<Index>(i)] = (forth ? 1.0 : -1.0) * to_table * fitter.tolerance(i);
   }
   return sum;
-}
-
-/// Does the axis file know one friction for both directions?
-bool same_both_ways(const Fitter& fitter) {
-  double last = 0.0;  // each number for forth is followed by that for back
-  for (const auto& parameter : fitter.base()) {
-    const auto key = parameter.entry->key;
-    if (!is_of(key, "coulomb") && !is_of(key, "viscous") && !is_of(key, "damping")) continue;
-    const double value = value_of(parameter, fitter.nominal());
-    if (key.find("_pos_") != std::string_view::npos) {
-      last = value;
-    } else if (value != last) {
-      return false;
-    }
-  }
-  return true;
 }
 
 Estimate estimate(const Difference& difference, const Eigen::MatrixXd& covariance) {
@@ -74,7 +67,7 @@ Estimate estimate(const Difference& difference, const Eigen::MatrixXd& covarianc
 
 std::optional<NamedEffect> difference_by_direction(const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
   const Hypothesis& own = hypothesis("direction_dependent_friction");
-  if (!same_both_ways(fitter) || has(fit.model, own)) return std::nullopt;
+  if (has(fit.model, own)) return std::nullopt;
   const Difference coulomb = difference(fitter, fit, covariance.rows(), true);
   const Difference viscous = difference(fitter, fit, covariance.rows(), false);
   if (!coulomb.shows(covariance) && !viscous.shows(covariance)) return std::nullopt;

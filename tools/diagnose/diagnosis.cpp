@@ -192,6 +192,7 @@ class Diagnosing {
     tell_as_one_lead(result_);
     tell_as_one_wave(result_);
     tell_as_one_change(result_);
+    tell_as_one_friction_along(result_);
     tell_as_one_growth(result_, data_.fit.front().duration_s());
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
       result_.effects.push_back(std::move(*difference));

@@ -43,7 +43,7 @@ json of(const NamedEffect& effect) {
   for (const auto& [name, estimate] : effect.parameters) parameters[name] = of(estimate);
   for (const auto& [low, high] : effect.intervals) intervals.push_back({low, high});
   const auto& h = *effect.hypothesis;
-  return {{"id", h.id},
+  return {{"id", told_id(h)},
           {"component", effect.component},
           {"sentence", effect.sentence},
           {"where", {{"channel", effect.channel}, {"axis", name_of(h.where)}, {"intervals", intervals}}},
@@ -84,7 +84,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));
     if (effect.alternatives.empty()) continue;
-    json set = {effect.hypothesis->id};
+    json set = {told_id(*effect.hypothesis)};
     for (const auto& other : effect.alternatives) set.push_back(other);
     out["alternatives"].push_back(set);
   }
@@ -107,7 +107,8 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   if (diagnosis.next.p_resolve) out["next_experiment"]["p_resolve"] = *diagnosis.next.p_resolve;
   out["suspects"] = json::array();
   for (const auto& s : diagnosis.suspects)
-    out["suspects"].push_back({{"id", s.hypothesis->id}, {"strength", s.strength}, {"p_false_alarm", s.p_false_alarm}});
+    out["suspects"].push_back(
+        {{"id", told_id(*s.hypothesis)}, {"strength", s.strength}, {"p_false_alarm", s.p_false_alarm}});
   if (diagnosis.denied_by_unseen > 0.0) out["denied_by_unseen"] = diagnosis.denied_by_unseen;
   out["detection_limit_N"] = diagnosis.detection_limit_N;
   out["updated_axis"] = updated_axis;

@@ -111,7 +111,9 @@ struct NamedValue {
 enum class Where { position, velocity, time, reversal, order, frequency };
 
 struct Hypothesis {
-  std::string_view id, component, channel;
+  std::string_view id;
+  std::string_view told_as = {};  ///< id that it is told under, where another law of the same physics has that; see told_id
+  std::string_view component, channel;
   Where where = Where::time;
   std::vector<WorkingParameter> parameters;
   std::vector<std::vector<double>> shapes;  ///< grid of the shape parameters; one empty entry where there are none
@@ -197,6 +199,10 @@ struct Active {
   bool operator==(const Active&) const = default;
 };
 
+/// The id that users know.
+[[nodiscard]] constexpr std::string_view told_id(const Hypothesis& hypothesis) {
+  return hypothesis.told_as.empty() ? hypothesis.id : hypothesis.told_as;
+}
 /// Is the fitted value physically possible?
 [[nodiscard]] bool possible(const Active& active, const plant::AxisParameters& axis);
 /// Where it acts.

@@ -64,7 +64,7 @@ std::string how_it_runs(const std::optional<Mode>& mode) {
 
 std::vector<std::string> ids_of(const std::vector<Suspect>& suspects) {
   std::vector<std::string> ids;
-  for (const auto& suspect : suspects) ids.emplace_back(suspect.hypothesis->id);
+  for (const auto& suspect : suspects) ids.emplace_back(told_id(*suspect.hypothesis));
   return ids;
 }
 
@@ -106,7 +106,7 @@ std::string outcome_of(const Diagnosis& diagnosis) {
   }
   std::vector<std::string> ids;
   for (const auto& fault : diagnosis.setup) ids.push_back(fault.id);
-  for (const auto& effect : diagnosis.effects) ids.emplace_back(effect.hypothesis->id);
+  for (const auto& effect : diagnosis.effects) ids.emplace_back(told_id(*effect.hypothesis));
   return fmt::format("{}: {}.", verdict == "recalibrate" ? "A number of the model is wrong" : "Missing from the model",
                      list_of(ids));
 }

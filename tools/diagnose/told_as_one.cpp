@@ -58,6 +58,16 @@ void tell_as_one_change(Diagnosis& result) {
   result.effects.erase(other);
 }
 
+void tell_as_one_friction_along(Diagnosis& result) {
+  const auto wave = place_of(result, "position_friction_wave"), slope = place_of(result, "position_friction");
+  if (wave == result.effects.end() || slope == result.effects.end()) return;
+  const bool waves = wave->share >= slope->share;
+  const auto &told = waves ? wave : slope, &other = waves ? slope : wave;
+  told->sentence += waves ? " It grows along the stroke too." : " It goes up and down along the stroke too.";
+  for (auto& parameter : other->parameters) told->parameters.push_back(std::move(parameter));
+  result.effects.erase(other);
+}
+
 void tell_as_one_growth(Diagnosis& result, double run_s) {
   constexpr double most_before = 1.5;  // times what it grows by while it is recorded
   const auto growth = place_of(result, "screw_growth"), lead = place_of(result, "lead_error");

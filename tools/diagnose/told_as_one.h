@@ -12,6 +12,9 @@ void tell_as_one_lead(Diagnosis& result);
 void tell_as_one_wave(Diagnosis& result);
 /// Friction that changes as the screw warms and as time goes by: of the two the one that explains more.
 void tell_as_one_change(Diagnosis& result);
+/// Friction that grows along the stroke and goes up and down along it: of the two the one that explains more, with the
+/// numbers of both.
+void tell_as_one_friction_along(Diagnosis& result);
 /// A screw that grows, and had grown before: a lead error of the same sign, of no more than what the runs show it to grow
 /// by.
 /// @param run_s length of a run

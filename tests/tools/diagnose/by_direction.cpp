@@ -63,6 +63,21 @@ TEST(ByDirection, ADifferenceOfTwoPerCentIsTold) {
   }
 }
 
+TEST(ByDirection, ItIsEnoughThatTheFileHasOneNumberOfTheComponentThatDiffers) {
+  auto nominal = same_both_ways(plant::source_axis());
+  nominal.guide.coulomb_N.pos *= 0.8, nominal.guide.viscous_Ns_per_m.neg *= 1.1;
+  auto truth = nominal;
+  EXPECT_FALSE(told(truth, nominal, true).has_value());
+  for (auto* friction_N : {&truth.ball_screw.coulomb_N, &truth.ball_screw.static_N})
+    friction_N->pos += 6.0, friction_N->neg -= 6.0;
+  const auto found = told(truth, nominal, true);
+  ASSERT_TRUE(found.has_value());
+  const Estimate coulomb = found->parameters.front().second;
+  EXPECT_LT(coulomb.low, 12.0);
+  EXPECT_GT(coulomb.high, 12.0);
+  EXPECT_LT(coulomb.high - coulomb.low, 2.0);
+}
+
 TEST(ByDirection, NothingIsToldOfAMachineThatIsTheSameBothWaysOrToWhoKnows) {
   auto off = same_both_ways(plant::source_axis());
   off.ball_screw.coulomb_N.pos *= 1.08, off.ball_screw.coulomb_N.neg *= 1.08;

@@ -41,6 +41,7 @@ const std::map<std::string_view, Trial>& trials() {
          {"viscous_slope_forth_Ns_per_m", 300.0},
          {"viscous_slope_back_Ns_per_m", -200.0}},
         {0, 0, 0}}},
+      {"position_friction_wave", {{{"relative_amplitude", 0.3}, {"period_m", 0.02}, {"phase_rad", 0.7}}, {0, 0, 0.021}}},
       {"copper_loss", {{{"coefficient_W_per_Nm2", 15.0}}, {0}, 0.06, true, true}},
       {"payload", {{{"mass_kg", 3.0}}, {0}, 0.03, true, true}},
       {"cable_spring", {{{"stiffness_N_per_m", 500.0}, {"neutral_m", 0.006}}, {0, 0}}},

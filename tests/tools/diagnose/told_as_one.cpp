@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/tools/diagnose/named_effect.h"
+#include "tools/diagnose/diagnosis_json.h"
 
 namespace feedtwin {
 namespace {
@@ -27,6 +30,30 @@ TEST(TellAsOneLead, WhatIsLeftOfAMendedLeadsErrorIsNoSecondFinding) {
   ASSERT_EQ(result.effects.size(), 1U);
   EXPECT_EQ(result.effects.front().hypothesis->id, "cogging");
   EXPECT_DOUBLE_EQ(result.setup.front().parameters.front().value, 2.0 * (1.0 + 3e-6));
+}
+
+TEST(TellAsOneFrictionAlong, ASlopeAndAWaveAreOneFindingWithTheNumbersOfBoth) {
+  Diagnosis result;
+  result.effects = {named("position_friction", "relative_slope_per_half_stroke", 0.1),
+                    named("cogging", "amplitude_Nm", 0.01), named("position_friction_wave", "period_m", 0.04)};
+  result.effects.front().share = 0.2;
+  result.effects.back().share = 0.5;
+  tell_as_one_friction_along(result);
+  ASSERT_EQ(result.effects.size(), 2U);
+  const auto& told = result.effects.back();
+  EXPECT_EQ(told_id(*told.hypothesis), "position_friction");
+  ASSERT_EQ(told.parameters.size(), 2U);
+  EXPECT_EQ(told.parameters.front().first, "period_m");
+  EXPECT_EQ(told.parameters.back().first, "relative_slope_per_half_stroke");
+  EXPECT_EQ(to_json(result, "")["effects"][1]["id"], "position_friction");
+}
+
+TEST(TellAsOneFrictionAlong, AWaveAloneIsToldAsFrictionAlongTheStroke) {
+  Diagnosis result;
+  result.effects = {named("position_friction_wave", "period_m", 0.04)};
+  tell_as_one_friction_along(result);
+  ASSERT_EQ(result.effects.size(), 1U);
+  EXPECT_EQ(to_json(result, "")["effects"][0]["id"], "position_friction");
 }
 
 TEST(TellAsOneLead, ALeadErrorWhereNoLeadWasMendedStays) {

@@ -10,6 +10,7 @@ std::vector<Hypothesis> registered() {
       backlash(),
       screw_compliance(),
       position_friction(),
+      position_friction_wave(),
       copper_loss(),
       payload(),
       cable_spring(),

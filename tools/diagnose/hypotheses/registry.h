@@ -11,6 +11,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis backlash();
 [[nodiscard]] Hypothesis screw_compliance();
 [[nodiscard]] Hypothesis position_friction();
+[[nodiscard]] Hypothesis position_friction_wave();
 [[nodiscard]] Hypothesis copper_loss();
 [[nodiscard]] Hypothesis payload();
 [[nodiscard]] Hypothesis cable_spring();
