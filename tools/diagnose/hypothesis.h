@@ -181,6 +181,8 @@ struct Hypothesis {
   /// which working parameter is the first run's (others follow; the first run's is fixed at none, the numbers hold it).
   std::string_view state = {};
   std::size_t first_state = 0;
+  /// Runs that begin farther apart than this differ, however far the change would go in the end.
+  double clear_step = 1e300;
 
   /// Where it acts, if its numbers say so.
   std::string_view (*component_for)(std::span<const double> q) = nullptr;

@@ -86,6 +86,14 @@ TEST(OwnState, WhereAllBeginAlikeAnUnseenRunDoesTooAndIsNotAsked) {
   for (std::size_t run = 0; run < line_runs; ++run) EXPECT_EQ(told.q[state_of_run(told.hypothesis->first_state, run)], 0.0);
 }
 
+TEST(OwnState, AStepBetweenSessionsIsClearHoweverFarASlowDriftWouldGoInTheEnd) {
+  const auto slow = [](double last_state) {
+    return Active{&hypothesis("friction_drift"), {1.7, 765.0, 0.0, 0.01, last_state, 0.0}};
+  };
+  EXPECT_TRUE(states_differ(slow(0.05)));
+  EXPECT_FALSE(states_differ(slow(0.015)));
+}
+
 TEST(OwnState, AScrewAndItsWarmthBeginAsTheRunBeforeLeftThem) {
   struct Row {
     std::string_view id;

@@ -11,6 +11,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr std::size_t first_state = 2;
+constexpr double least_step = 0.02;  ///< between sessions
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
@@ -27,7 +28,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 /// What a recording shows of it, or what happened between them. What is over with the first move, in each run anew, is no
 /// lubricant's doing: the screw warms, or friction at rest is another (of a screw that warmed it made 3 % within 0.4 s).
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  constexpr double a_recording_s = 10.0, least_change = 0.005, least_step = 0.02, a_move_s = 1.0;
+  constexpr double a_recording_s = 10.0, least_change = 0.005, a_move_s = 1.0;
   if (q[1] < a_move_s) return false;
   const auto [low, high] = std::ranges::minmax(q.subspan(first_state));
   return std::abs(q[0]) * (1.0 - std::exp(-a_recording_s / q[1])) > least_change || high - low > least_step;
@@ -56,6 +57,7 @@ Hypothesis friction_drift() {
           .confused_with = {"thermal_friction"},
           .state = "initial_change",
           .first_state = first_state,
+          .clear_step = least_step,
           .friction = true};
 }
 

@@ -172,7 +172,7 @@ std::pair<double, double> states_from_to(const Active& active) {
 bool states_differ(const Active& active) {
   constexpr double least_share = 0.1;
   const auto [low, high] = states_from_to(active);
-  return std::max(-low, high) > least_share * std::abs(active.q.front());
+  return std::max(-low, high) > std::min(active.hypothesis->clear_step, least_share * std::abs(active.q.front()));
 }
 
 Grid torque_limits() {

@@ -56,7 +56,7 @@ void add_line(const Track& track, std::span<const double> q, Vector& force_N);
 [[nodiscard]] double mean_state(const Active& active);
 /// Least and largest of them.
 [[nodiscard]] std::pair<double, double> states_from_to(const Active& active);
-/// Do the runs begin in states that differ, by more than a share of the change that goes with them?
+/// Do the runs begin in states that differ, by more than a share of the change that goes with them, or by a clear step?
 [[nodiscard]] bool states_differ(const Active& active);
 
 /// Grids of shape parameters.
