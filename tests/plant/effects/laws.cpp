@@ -100,10 +100,11 @@ TEST(Laws, ForceAtSteadySpeed) {
        [](const Nominal& n, double v, const Steady& s) {
          return n.all_N() + s.position_m / 10.0 * (2.5 * n.screw_sliding_N + (v > 0.0 ? 3e4 : -5e4) * v);
        }},
-      {{"position_friction_wave", {0.6, 2.5, 0.4}, {}},
+      {{"position_friction_wave", {0.6, 2.5, 0.4, 900.0, -0.3}, {}},
        0.0,
-       [](const Nominal& n, double, const Steady& s) {
-         return n.all_N() + 0.6 * std::sin(2.0 * std::numbers::pi / 2.5 * s.position_m + 0.4) * n.screw_sliding_N;
+       [](const Nominal& n, double v, const Steady& s) {
+         const double angle = 2.0 * std::numbers::pi / 2.5 * s.position_m;
+         return n.all_N() + 0.6 * std::sin(angle + 0.4) * n.screw_sliding_N + 900.0 * std::sin(angle - 0.3) * v;
        }},
       {{"load_dependent_friction", {0.15, 0.0}, {}}, 400.0, loaded_by(0.0)},
       {{"load_dependent_friction", {0.15, 1.0}, {}}, 400.0, loaded_by(1.0)},

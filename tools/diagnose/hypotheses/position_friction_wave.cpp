@@ -1,4 +1,5 @@
-// Friction that goes up and down along the stroke: F_C and F_S times 1 + A sin(2 pi (x - x_c) / L + phi).
+// Friction that goes up and down along the stroke: F_C and F_S times 1 + A sin(2 pi (x - x_c) / L + phi), mu plus a wave of
+// its own of that period.
 
 #include <algorithm>
 #include <cmath>
@@ -10,20 +11,29 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  if (q[0] == 0.0 && q[1] == 0.0) return;
-  const Vector from_middle = (view.track.position_m.array() - view.transmission().stroke_centre_m).matrix();
-  scale(sum.screw_sliding, (1.0 + wave(from_middle, q[2], 1.0, q[0], q[1]).array()).matrix());
+  const Track& track = view.track;
+  const Vector from_middle = (track.position_m.array() - view.transmission().stroke_centre_m).matrix();
+  if (q[0] != 0.0 || q[1] != 0.0)
+    scale(sum.screw_sliding, (1.0 + wave(from_middle, q[4], 1.0, q[0], q[1]).array()).matrix());
+  if (q[2] != 0.0 || q[3] != 0.0)
+    add(sum.screw_N, wave(from_middle, q[4], 1.0, q[2], q[3]).cwiseProduct(track.centred_m_per_s));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"relative_amplitude", std::hypot(q[0], q[1])}, {"period_m", q[2]}, {"phase_rad", std::atan2(q[1], q[0])}};
+  return {{"relative_amplitude", std::hypot(q[0], q[1])},
+          {"period_m", q[4]},
+          {"phase_rad", std::atan2(q[1], q[0])},
+          {"viscous_amplitude_Ns_per_m", std::hypot(q[2], q[3])},
+          {"viscous_phase_rad", std::atan2(q[3], q[2])}};
 }
 
-/// Shorter waves are the screw's revolutions and what its balls do.
-constexpr double least_leads = 2.5;
-
+/// Shorter waves are the screw's revolutions and what its balls do. And it is the sliding friction that goes up and down: an
+/// oil film that does is none of the catalogue.
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
-  return std::hypot(q[0], q[1]) > 0.01 && std::hypot(q[0], q[1]) < 1.5 && q[2] > least_leads * axis.axis.lead_m;
+  constexpr double least_leads = 2.5, least_amplitude = 0.04, most_amplitude = 1.5, least_of_viscous = 0.5;
+  const double sliding = std::hypot(q[0], q[1]), viscous = std::hypot(q[2], q[3]) / mean(axis.ball_screw.viscous_Ns_per_m);
+  return sliding > least_amplitude && sliding < most_amplitude && sliding > least_of_viscous * viscous &&
+         q[4] > least_leads * axis.axis.lead_m;
 }
 
 /// Half a wave over the travel, a whole one, one and a half: what is between is found from these.
@@ -51,6 +61,8 @@ Hypothesis position_friction_wave() {
           .where = Where::position,
           .parameters = {{"sine", Kind::amplitude, 1e-2, -1.5, 1.5},
                          {"cosine", Kind::amplitude, 1e-2, -1.5, 1.5},
+                         {"viscous_sine_Ns_per_m", Kind::amplitude, 1.0},
+                         {"viscous_cosine_Ns_per_m", Kind::amplitude, 1.0},
                          {"period_m", Kind::shape, 1e-5, 4e-3, 10.0}},
           .shapes = {},
           .apply = apply,
@@ -61,7 +73,8 @@ Hypothesis position_friction_wave() {
               "{period_m} m",
           .confused_with = {"local_friction", "cable_spring"},
           .shapes_for = periods_of,
-          .friction = true};
+          .friction = true,
+          .forces_too = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis

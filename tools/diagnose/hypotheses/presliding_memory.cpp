@@ -37,10 +37,6 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 0.0;
 }
 
-double mean(const plant::Directional& both) {
-  return 0.5 * (both.pos + both.neg);
-}
-
 /// Over what a bristle itself yields (F_C / sigma0: 1.5 um) it is no more than the bristle's own stiffness; over a few times
 /// that, how one bristle simplifies any real contact, of up to what screw and guide have (75 N). Contacts made of eight
 /// slipping elements came out as 17 to 49 N over 3 to 6.3 um, of six and 134 to 373 N as 73 to 147 N over 3 to 5.3 um, of a

@@ -20,6 +20,11 @@ inline constexpr double deviations_of_lags = 14.0;
   return 2.0 * std::numbers::pi / transmission.lead_m;
 }
 
+/// Of both directions.
+[[nodiscard]] inline double mean(const plant::Directional& both) {
+  return 0.5 * (both.pos + both.neg);
+}
+
 /// sine sin(2 pi n x / period) + cosine cos(...)
 [[nodiscard]] Vector wave(const Vector& x, double period, double order, double sine, double cosine);
 /// What screw and table press on each other with, N: as the force sensor shows it, otherwise as the model has it.
