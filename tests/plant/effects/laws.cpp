@@ -65,8 +65,8 @@ Nominal nominal(double v) {
 TEST(Laws, ForceAtSteadySpeed) {
   struct Row {
     EffectSetting effect;
-    double cutting_N;
     std::function<double(const Nominal&, double v, const Steady&)> expected_N;
+    double cutting_N = 0.0;
   };
   const auto loaded_by = [](double guide_share) {
     return [=](const Nominal& n, double v, const Steady&) {
@@ -76,69 +76,53 @@ TEST(Laws, ForceAtSteadySpeed) {
     };
   };
   const std::vector<Row> rows{
-      {{"gravity", {35.0}, {}}, 0.0, [](const Nominal& n, double, const Steady&) { return n.all_N() + 35.0; }},
+      {{"gravity", {35.0}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N() + 35.0; }},
       {{"quadratic_drag", {2000.0}, {}},
-       0.0,
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + 2000.0 * v * std::abs(v); }},
       {{"sublinear_viscous", {0.6, 0.1}, {}},
-       0.0,
        [](const Nominal& n, double v, const Steady&) {
          return n.all_N() + n.screw_viscous_N * (std::pow(std::abs(v) / 0.1, -0.4) - 1.0);
        }},
       {{"thermal_friction", {0.4, 30.0, 0.1}, {}},
-       0.0,
        [](const Nominal& n, double, const Steady& s) {
          return n.all_N() - (0.4 - 0.3 * std::exp(-s.screw_work_J / 30.0)) * n.screw_viscous_N;
        }},
       {{"friction_drift", {0.5, 2.0, -0.2}, {}},
-       0.0,
        [](const Nominal& n, double, const Steady& s) {
          return n.all_N() + (0.5 - 0.7 * std::exp(-s.time_s / 2.0)) * (n.screw_sliding_N + n.screw_viscous_N);
        }},
       {{"position_friction", {2.5, 3e4, -5e4}, {}},
-       0.0,
        [](const Nominal& n, double v, const Steady& s) {
          return n.all_N() + s.position_m / 10.0 * (2.5 * n.screw_sliding_N + (v > 0.0 ? 3e4 : -5e4) * v);
        }},
       {{"position_friction_wave", {0.6, 2.5, 0.4, 900.0, -0.3}, {}},
-       0.0,
        [](const Nominal& n, double v, const Steady& s) {
          const double angle = 2.0 * std::numbers::pi / 2.5 * s.position_m;
          return n.all_N() + 0.6 * std::sin(angle + 0.4) * n.screw_sliding_N + 900.0 * std::sin(angle - 0.3) * v;
        }},
-      {{"load_dependent_friction", {0.15, 0.0}, {}}, 400.0, loaded_by(0.0)},
-      {{"load_dependent_friction", {0.15, 1.0}, {}}, 400.0, loaded_by(1.0)},
+      {{"load_dependent_friction", {0.15, 0.0}, {}}, loaded_by(0.0), 400.0},
+      {{"load_dependent_friction", {0.15, 1.0}, {}}, loaded_by(1.0), 400.0},
       {{"direction_dependent_friction", {12.0, 200.0}, {}},
-       0.0,
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + 6.0 + 100.0 * std::abs(v); }},
       {{"cable_spring", {200.0, 0.3}, {}},
-       0.0,
        [](const Nominal& n, double, const Steady& s) { return n.all_N() + 200.0 * (s.position_m - 0.3); }},
-      {{"torque_offset", {0.02}, {}},
-       0.0,
-       [](const Nominal& n, double, const Steady&) { return n.all_N() - 0.02 * rad_per_m; }},
-      {{"torque_gain_error", {0.1}, {}}, 0.0, [](const Nominal& n, double, const Steady&) { return n.all_N() / 1.1; }},
+      {{"torque_offset", {0.02}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N() - 0.02 * rad_per_m; }},
+      {{"torque_gain_error", {0.1}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N() / 1.1; }},
       {{"hidden_friction_compensation", {0.03, 1e-3}, {}},
-       0.0,
        [](const Nominal& n, double v, const Steady&) { return n.all_N() - 0.03 * rad_per_m * std::tanh(v / 1e-3); }},
       {{"presliding_memory", {25.0, 1e-5}, {}},
-       0.0,
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + (v > 0.0 ? 25.0 : -25.0); }},
-      {{"frictional_lag", {0.01}, {}}, 0.0, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
-      {{"backlash", {1e-5, 6e7, 2e3}, {}}, 0.0, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
+      {{"frictional_lag", {0.01}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
+      {{"backlash", {1e-5, 6e7, 2e3}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
       {{"learned_residual", {}, {{-1.0, 1.0}, {}, {}, {-8.0, 12.0}, {}, {}, {}}},
-       0.0,
        [](const Nominal& n, double, const Steady& s) { return n.all_N() + 2.0 + 10.0 * s.position_m; }},
       {{"learned_residual", {}, {{}, {}, {0.0, 10.0}, {0.0, 30.0}, {0.0, -60.0}, {}, {}}},
-       0.0,
        [](const Nominal& n, double v, const Steady& s) { return n.all_N() + (v > 0.0 ? 3.0 : -6.0) * s.time_s; }},
       {{"learned_residual", {}, {{-1.0, 1.0}, {}, {}, {2.0, 2.0}, {-3.0, -3.0}, {50.0, 250.0}, {-100.0, -300.0}}},
-       0.0,
        [](const Nominal& n, double v, const Steady& s) {
          return n.all_N() + (v > 0.0 ? 2.0 + (150.0 + 100.0 * s.position_m) * v : -3.0 + (200.0 + 100.0 * s.position_m) * v);
        }},
       {{"learned_residual", {}, {{}, {0.0, 0.1}, {}, {0.0, 20.0}, {-5.0, -5.0}, {}, {}}},
-       0.0,
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + (v > 0.0 ? 200.0 * v : -5.0); }},
   };
   for (const auto& row : rows) {
