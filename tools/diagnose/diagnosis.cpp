@@ -30,6 +30,7 @@
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/screen.h"
 #include "tools/diagnose/sentence.h"
+#include "tools/diagnose/soft_contact.h"
 #include "tools/diagnose/told_as_one.h"
 #include "tools/diagnose/unknown.h"
 #include "tools/diagnose/verdict.h"
@@ -140,8 +141,7 @@ class Diagnosing {
     constexpr double far = 2.0;
     if (!settled_) return false;
     const auto inverse = forward_.nrmse(extended(fit_.model)), closed_loop = forward_.nrmse(extended(settled_->model));
-    return std::ranges::any_of(inverse,
-                               [&](const auto& channel) { return channel.second > far * closed_loop.at(channel.first); });
+    return std::ranges::any_of(inverse, [&](const auto& of) { return of.second > far * closed_loop.at(of.first); });
   }
 
   /// What was named in place of a name that came later goes.
@@ -184,7 +184,7 @@ class Diagnosing {
     for (const auto& one : found_.found) {
       const auto now = std::ranges::find(fit_.model.effects, one.effect.hypothesis, &Active::hypothesis);
       if (now == fit_.model.effects.end()) continue;
-      if (worth_naming(*now, fit_.model.axis))
+      if (worth_telling(*now, fit_.model.axis, data_.axis))
         result_.effects.push_back(named_effect(one, fit_, covariance_, model_));
       else
         progress_(fmt::format("{} is of a size that other physics has too: not named", in_words(*now, fit_.model.axis)));

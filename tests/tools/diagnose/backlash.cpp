@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/hypotheses/registry.h"
@@ -35,6 +36,17 @@ TEST(Backlash, TheFlankThatBearsIsTheForcesAndNotTheMotions) {
     const Active gap{&hypothesis("backlash"), {6e-6, 1.0 / 6e7, std::log(2e4)}};
     EXPECT_LT(slip_rms_m(model, {gap}), 0.25 * slip_rms_m(model, {})) << (sensor ? "felt" : "by the model");
   }
+}
+
+TEST(Backlash, AStifferFlankRingsNoLongerForIt) {
+  const auto& gap = hypothesis("backlash");
+  const auto damping_ratio = [&](double stiffness_N_per_m) {  // but for a factor
+    const auto values =
+        gap.named(std::vector{5e-6, 1.0 / stiffness_N_per_m, gap.shapes.front().back()}, plant::source_axis());
+    EXPECT_EQ(values.back().name, "damping_Ns_per_m");
+    return values.back().value / std::sqrt(stiffness_N_per_m);
+  };
+  EXPECT_NEAR(damping_ratio(1e9) / damping_ratio(6e7), 1.0, 1e-9);
 }
 
 }  // namespace

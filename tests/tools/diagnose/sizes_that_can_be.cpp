@@ -4,6 +4,7 @@
 
 #include "plant/parameter_table.h"
 #include "tools/diagnose/hypothesis.h"
+#include "tools/diagnose/soft_contact.h"
 
 namespace feedtwin {
 namespace {
@@ -32,6 +33,23 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_TRUE(finding(11.0, 6e-5));
 }
 
+TEST(PreslidingMemory, IsToldWhereOnlyASoftenedBristleHidesIt) {
+  const auto nominal = plant::source_axis();
+  const double file_N_per_m = nominal.ball_screw.stiffness_N_per_m;
+  const auto told = [&](double force_N, double distance_m, double left_of_the_bristle) {
+    auto now = nominal;
+    now.ball_screw.stiffness_N_per_m = left_of_the_bristle * file_N_per_m;
+    return worth_telling({&hypothesis("presliding_memory"), {force_N, distance_m}}, now, nominal);
+  };
+  const double yields_m =
+      (0.5 * (nominal.ball_screw.coulomb_N.pos + nominal.ball_screw.coulomb_N.neg) + 36.0) / file_N_per_m;
+  EXPECT_TRUE(told(36.0, 6.6 * yields_m, 0.16));
+  EXPECT_FALSE(told(36.0, 6.6 * yields_m, 0.3)) << "as contacts with nothing hidden have it";
+  EXPECT_FALSE(told(36.0, 3.0 * yields_m, 0.16));
+  EXPECT_FALSE(told(3.0, 6.6 * yields_m, 0.16));
+  EXPECT_FALSE(worth_telling({&hypothesis("screw_compliance"), {1e-10, 0.0}}, nominal, nominal));
+}
+
 TEST(PositionFriction, MayBeOfTheViscousPartAlone) {
   const auto can_be = [](double share, double forth, double back) {
     return possible({&hypothesis("position_friction"), {share, forth, back}}, plant::source_axis());
@@ -40,6 +58,20 @@ TEST(PositionFriction, MayBeOfTheViscousPartAlone) {
   EXPECT_TRUE(can_be(0.0, 100.0, 0.0));
   EXPECT_TRUE(can_be(0.0, 0.0, -100.0));
   EXPECT_FALSE(can_be(0.001, 5.0, -5.0)) << "of neither";
+}
+
+TEST(PositionFrictionWave, IsOfSlidingFrictionAndLongerThanTheScrewsTurns) {
+  const auto axis = plant::source_axis();
+  const double mu = axis.ball_screw.viscous_Ns_per_m.pos, lead_m = axis.axis.lead_m;
+  const auto can_be = [&](double sliding, double viscous_share, double period_leads) {
+    return possible({&hypothesis("position_friction_wave"), {0.0, sliding, viscous_share * mu, 0.0, period_leads * lead_m}},
+                    axis);
+  };
+  EXPECT_TRUE(can_be(0.2, 0.0, 8.0));
+  EXPECT_TRUE(can_be(-0.2, 0.2, 8.0)) << "all of the screw's friction";
+  EXPECT_FALSE(can_be(0.02, 0.0, 8.0)) << "as much as any screw's";
+  EXPECT_FALSE(can_be(0.1, 0.5, 8.0)) << "an oil film's";
+  EXPECT_FALSE(can_be(0.2, 0.0, 2.0));
 }
 
 TEST(SublinearViscous, IsBelowOneAndToldFromOne) {
