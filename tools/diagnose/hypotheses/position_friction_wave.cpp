@@ -27,16 +27,18 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
           {"viscous_phase_rad", std::atan2(q[3], q[2])}};
 }
 
-/// Shorter waves are the screw's revolutions and what its balls do. And it is the sliding friction that goes up and down: an
-/// oil film that does is none of the catalogue.
+/// Shorter waves are the screw's revolutions and what its balls do, longer ones no waves. And it is the sliding friction
+/// that goes up and down: an oil film that does is none of the catalogue.
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
   constexpr double least_leads = 2.5, least_amplitude = 0.04, most_amplitude = 1.5, least_of_viscous = 0.5;
+  constexpr double most_of_stroke = 0.75;
   const double sliding = std::hypot(q[0], q[1]), viscous = std::hypot(q[2], q[3]) / mean(axis.ball_screw.viscous_Ns_per_m);
   return sliding > least_amplitude && sliding < most_amplitude && sliding > least_of_viscous * viscous &&
-         q[4] > least_leads * axis.axis.lead_m;
+         q[4] > least_leads * axis.axis.lead_m && q[4] < most_of_stroke * axis.axis.stroke_m;
 }
 
-/// Half a wave over the travel, a whole one, one and a half: what is between is found from these.
+/// One wave and a half over the travel, two, two and a half: what is between is found from these. Longer ones are slopes and
+/// bowls (on a real record one of twice the travel stood for all that depends on speed, and took every name's place).
 std::vector<std::vector<double>> periods_of(const std::vector<Track>& runs) {
   constexpr int most_halves = 16;
   constexpr double least_period_m = 8e-3;
@@ -46,7 +48,7 @@ std::vector<std::vector<double>> periods_of(const std::vector<Track>& runs) {
     high_m = std::max(high_m, run.position_m.maxCoeff());
   }
   std::vector<std::vector<double>> grid;
-  for (int halves = 1; halves <= most_halves; ++halves)
+  for (int halves = 3; halves <= most_halves; ++halves)
     grid.push_back({std::max(least_period_m, 2.0 * (high_m - low_m) / halves)});
   return grid;
 }
