@@ -142,7 +142,10 @@ NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd
   effect.by_closed_loop = one.by_closed_loop;
   effect.by_common_shift = one.by_common_shift;
   effect.intervals = acts_in(effect, model);
-  for (const auto* rival : one.rivals) effect.alternatives.emplace_back(told_id(*rival));
+  for (const auto* rival : one.rivals) {  // another law of the same physics is none
+    const bool told = std::ranges::find(effect.alternatives, told_id(*rival)) != effect.alternatives.end();
+    if (!told && told_id(*rival) != told_id(*effect.hypothesis)) effect.alternatives.emplace_back(told_id(*rival));
+  }
   const auto now = std::ranges::find(fit.model.effects, effect.hypothesis, &Active::hypothesis);
   const auto beside = std::string(effect.hypothesis->always_beside);
   const bool far = !beside.empty() && told_by_size_alone(*now);

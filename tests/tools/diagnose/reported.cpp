@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/made_case.h"
+#include "tests/tools/diagnose/fitted_runs.h"
 #include "tests/tools/diagnose/named_effect.h"
+#include "tools/diagnose/judge.h"
 #include "tools/diagnose/sentence.h"
 
 namespace feedtwin {
@@ -27,6 +30,17 @@ TEST(SentenceOf, WhatAllNumbersCouldMakeUpForTogetherSaysThatThatTellsIt) {
   effect.by_closed_loop = effect.by_common_shift = true;
   EXPECT_NE(sentence_of(effect).find("off by the same share"), std::string::npos);
   EXPECT_EQ(sentence_of(effect).find("simulated motion tells it"), std::string::npos);
+}
+
+TEST(NamedEffect, AnotherLawOfTheSamePhysicsIsNoAlternative) {
+  const auto axis = plant::source_axis();
+  const tests::FittedRuns fitted({tests::make_recording(axis, {.motion = "sine", .duration_s = 4.0})}, axis);
+  Found found;
+  found.effect = {&hypothesis("position_friction"), {0.2, 0.0, 0.0}};
+  found.rivals = {&hypothesis("position_friction_wave"), &hypothesis("local_friction"), &hypothesis("local_friction")};
+  const auto fit = fitted.fitter.fit({axis, {found.effect}}, fitted.whitening, 2);
+  const auto told = named_effect(found, fit, robust_covariance(fitted.model, fit), fitted.model);
+  EXPECT_EQ(told.alternatives, std::vector<std::string>{"local_friction"});
 }
 
 TEST(ChannelOf, AGainIsReadOffTheSensorThatHasIt) {
