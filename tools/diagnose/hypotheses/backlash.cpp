@@ -10,7 +10,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double usual_stiffness_N_per_m = 6e7;
+constexpr double usual_stiffness_N_per_m = 6e7, most_stiffness_N_per_m = 1e9;
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
@@ -30,7 +30,8 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   // A flank that is as stiff as can be told does not ring longer for it: started with the damping of a soft one it bounced
   // through a whole run, the force sensor's likelihood fell by 30000 nats, and a gap of 4.8 um was not missed.
   const double stiffness_N_per_m = 1.0 / std::max(q[1], 1e-12);
-  const double damping_Ns_per_m = std::exp(q[2]) * std::sqrt(std::max(1.0, stiffness_N_per_m / usual_stiffness_N_per_m));
+  const double as_stiff_as_told = std::clamp(stiffness_N_per_m, usual_stiffness_N_per_m, most_stiffness_N_per_m);
+  const double damping_Ns_per_m = std::exp(q[2]) * std::sqrt(as_stiff_as_told / usual_stiffness_N_per_m);
   return {{"gap_m", q[0]}, {"stiffness_N_per_m", stiffness_N_per_m}, {"damping_Ns_per_m", damping_Ns_per_m}};
 }
 
@@ -46,7 +47,7 @@ Hypothesis backlash() {
           .channel = "scale_position_m",
           .where = Where::reversal,
           .parameters = {{"gap_m", Kind::amplitude, 1e-7, 0.0, 1e-3},
-                         {"compliance_m_per_N", Kind::amplitude, 1e-9, 1e-9, 1e-7},
+                         {"compliance_m_per_N", Kind::amplitude, 1e-9, 1.0 / most_stiffness_N_per_m, 1e-7},
                          {"log_damping", Kind::simulated, 1e-2, std::log(1e2), std::log(1e5)}},
           .shapes = {{std::log(screw_damping_Ns_per_m)}},
           .apply = apply,
