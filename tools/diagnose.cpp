@@ -27,7 +27,8 @@ struct Options {
 
 void print(const diagnosis::Diagnosis& found) {
   fmt::print("{}: {}\n", found.verdict, found.summary);
-  for (const auto& effect : found.effects) fmt::print("  {}\n    {}\n", diagnosis::told_id(*effect.hypothesis), effect.sentence);
+  for (const auto& effect : found.effects)
+    fmt::print("  {}\n    {}\n", diagnosis::told_id(*effect.hypothesis), effect.sentence);
   for (const auto& [channel, f] : found.holdout)
     fmt::print("  held out {}: nrmse {:.4f} before, {:.4f} recalibrated, {:.4f} after, {:.4f} noise\n", channel, f.before,
                f.recalibrated, f.after, f.floor);

@@ -56,30 +56,31 @@ std::vector<std::vector<double>> periods_of(const std::vector<Track>& runs) {
 }  // namespace
 
 Hypothesis position_friction_wave() {
-  return {.id = "position_friction_wave",
-          .told_as = "position_friction",
-          .component = "ball_screw",
-          .channel = "torque_cmd_Nm",
-          .where = Where::position,
-          .parameters = {{"sine", Kind::amplitude, 1e-2, -1.5, 1.5},
-                         {"cosine", Kind::amplitude, 1e-2, -1.5, 1.5},
-                         {"viscous_sine_Ns_per_m", Kind::amplitude, 1.0},
-                         {"viscous_cosine_Ns_per_m", Kind::amplitude, 1.0},
-                         {"period_m", Kind::shape, 1e-5, 4e-3, 10.0}},
-          .shapes = {},
-          .apply = apply,
-          .named = named,
-          .admissible = possible,
-          .sentence =
-              "the screw's friction goes up and down along the stroke, by {relative_amplitude} of its sliding part over "
-              "{period_m} m",
+  return {
+      .id = "position_friction_wave",
+      .told_as = "position_friction",
+      .component = "ball_screw",
+      .channel = "torque_cmd_Nm",
+      .where = Where::position,
+      .parameters = {{"sine", Kind::amplitude, 1e-2, -1.5, 1.5},
+                     {"cosine", Kind::amplitude, 1e-2, -1.5, 1.5},
+                     {"viscous_sine_Ns_per_m", Kind::amplitude, 1.0},
+                     {"viscous_cosine_Ns_per_m", Kind::amplitude, 1.0},
+                     {"period_m", Kind::shape, 1e-5, 4e-3, 10.0}},
+      .shapes = {},
+      .apply = apply,
+      .named = named,
+      .admissible = possible,
+      .sentence =
+          "the screw's friction goes up and down along the stroke, by {relative_amplitude} of its sliding part over "
+          "{period_m} m",
 
-          // a real record's laps had 0.31 to 0.58 of it beside other names, that the closed loop did not miss; a true one 2.3
-          .least_strength = 0.6,
-          .confused_with = {"local_friction", "cable_spring"},
-          .shapes_for = periods_of,
-          .friction = true,
-          .forces_too = true};
+      // a real record's laps had 0.31 to 0.58 of it beside other names, that the closed loop did not miss; a true one 2.3
+      .least_strength = 0.6,
+      .confused_with = {"local_friction", "cable_spring"},
+      .shapes_for = periods_of,
+      .friction = true,
+      .forces_too = true};
 }
 
 }  // namespace feedtwin::tools::diagnosis
