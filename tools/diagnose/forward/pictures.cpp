@@ -132,7 +132,7 @@ std::vector<Figure> pictures(const ForwardModel& forward, const std::vector<Trac
     const auto kind = std::ranges::find(channel_kinds(), name, &ChannelKind::name);
     if (!left.value.empty()) figures.push_back(figure(*against, name, kind->unit, tracks, lead_m, left, still, what));
   };
-  for (const auto* hypothesis : named) show(hypothesis->channel, hypothesis->where, std::string(hypothesis->id));
+  for (const auto* hypothesis : named) show(hypothesis->channel, hypothesis->where, std::string(told_id(*hypothesis)));
   const std::string all = named.empty() ? "recalibration" : "the whole mismatch";
   for (const auto where : {Where::position, Where::velocity, Where::reversal, Where::time})
     show(channel::torque_cmd_Nm, where, all);

@@ -90,7 +90,7 @@ NextExperiment plan_to_separate(const Evidence& seen, const Hypothesis& effect, 
                                 const std::function<void(std::string_view)>& progress) {
   NextExperiment next;
   next.separates = alternatives;
-  next.separates.insert(next.separates.begin(), std::string(effect.id));
+  next.separates.insert(next.separates.begin(), std::string(told_id(effect)));
   if (const auto* entry = plant::find_effect(effect.id)) next.move = entry->exciting_move;
   const auto own = std::ranges::find(seen.model.effects, &effect, &Active::hypothesis);
   if (own == seen.model.effects.end()) return next;
@@ -118,7 +118,7 @@ NextExperiment plan_to_prove(const Evidence& seen, const std::vector<Candidate>&
                              const std::function<void(std::string_view)>& progress) {
   NextExperiment next;
   if (suspects.empty()) return next;
-  for (const auto& with : suspects) next.separates.emplace_back(with.effects.back().hypothesis->id);
+  for (const auto& with : suspects) next.separates.emplace_back(told_id(*with.effects.back().hypothesis));
   const Fit present = seen.fitter.linearised(seen.model, seen.whitening);
   const Separation separation(seen.forward, seen.fitter, seen.model, seen.data.controller);
   const Answer best = best_move(separation, {{suspects.front(), contender(present, seen.fitter.model())}}, progress);
