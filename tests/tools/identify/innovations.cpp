@@ -54,6 +54,29 @@ TEST(Innovations, AFewTicksFarOffSayNothingAboutTheOthers) {
   }
 }
 
+/// Foretold closely by its past, in bursts not: r_k = 1.96 r_k-1 - 0.9604 r_k-2 + e_k, e of one deviation, of thirty in two
+/// hundredths of the time.
+std::vector<double> slow_with_bursts(std::size_t samples, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> unit;
+  std::vector<double> r(samples + 400, 0.0);
+  for (std::size_t k = 2; k < r.size(); ++k)
+    r[k] = 1.96 * r[k - 1] - 0.9604 * r[k - 2] + (k % 1000 < 20 ? 30.0 : 1.0) * unit(random);
+  return {r.begin() + 400, r.end()};
+}
+
+TEST(Innovations, AreNotLostAfterABurst) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const Stretches as_made{slow_with_bursts(20000, seed)};
+    Stretches nearly = as_made;
+    for (double& r : nearly[0]) r *= 1.0 + 1e-6;
+    const auto found = innovations_of(as_made);
+    EXPECT_GT(found.scale, 0.7) << seed;
+    EXPECT_LT(found.scale, 1.5) << seed;
+    EXPECT_NEAR(log_likelihood(innovations_of(nearly)), log_likelihood(found), 5.0) << seed;
+  }
+}
+
 TEST(Innovations, NothingLeftOverIsNoError) {
   const auto found = innovations_of({std::vector<double>(500, 0.0), {}});
   EXPECT_TRUE(std::isfinite(log_likelihood(found)));
