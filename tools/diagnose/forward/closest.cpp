@@ -29,13 +29,16 @@ std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& a
 
 bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named, double far_worse) {
   const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named));
-  const auto farther_than = [&](const Nrmse& other) {
-    return [&](const auto& channel) { return channel.second > far_worse * other.at(channel.first); };
+  const auto farther_than = [&](const auto& least) {
+    return std::ranges::any_of(by_rival, [&](const auto& of) { return of.second > far_worse * least(of.first); });
   };
-  if (std::ranges::none_of(by_rival, farther_than(by_named))) return false;
-  const Nrmse floor = forward.noise_floor(extended(named));
-  return std::ranges::any_of(
-      by_rival, [&](const auto& channel) { return farther_than(by_named)(channel) && farther_than(floor)(channel); });
+  const auto error = [&](const auto& channel) { return by_named.at(channel); };
+  if (!farther_than(error)) return false;
+  // what it repeats so badly says little; but that it comes nearer than it repeats is no chance
+  const Nrmse repeats = forward.noise_floor(extended(named));
+  return farther_than([&](const auto& channel) {
+    return std::clamp(repeats.at(channel), error(channel), far_worse * error(channel));
+  });
 }
 
 bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before) {
