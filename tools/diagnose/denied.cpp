@@ -38,6 +38,7 @@ bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
   const auto is_number = [](const Suspect& one) { return one.hypothesis->number_of_the_model; };
   const double most = std::ranges::all_of(named, is_number) ? numbers_denied_ratio : denied_ratio;
   if (named.empty() || result.unknown || ratio < most) return false;
+  if (farther_off(result.holdout_inverse) < borne_out_ratio) return false;
   result.denied_by_unseen = ratio;
   result.effects.clear();
   result.suspects = std::move(named);

@@ -21,7 +21,8 @@ struct Told {
   Diagnosis result;
   bool taken_back;
 
-  explicit Told(double times) {
+  /// @param by_force how many times as far off the names leave the force along the recorded motion
+  explicit Told(double times, double by_force = 1.0) {
     const double amplitude_Nm = 0.01 * times;
     SearchResult found;
     found.recalibrated.model = cogged.nominal;
@@ -35,6 +36,7 @@ struct Told {
     result.effects.push_back(tests::named("cogging", "amplitude_Nm", amplitude_Nm));
     result.updated = axis;
     result.holdout = figures(cogged.forward, cogged.data.axis, extended(cogged.nominal), axis);
+    result.holdout_inverse["torque_cmd_Nm"] = {.before = 1.0, .recalibrated = 1.0, .after = by_force};
     taken_back = taken_back_if_denied(result, found);
   }
 };
@@ -46,6 +48,11 @@ TEST(Denied, ANameThatBringsUnseenRunsCloserStays) {
   EXPECT_EQ(told.result.effects.size(), 1U);
   EXPECT_EQ(told.result.updated.effects.size(), 1U);
   EXPECT_EQ(told.result.denied_by_unseen, 0.0);
+}
+
+TEST(Denied, NotByTheClosedLoopAloneWhereTheForceAlongTheMotionBearsTheNameOut) {
+  EXPECT_FALSE(Told(30.0, 0.5 * borne_out_ratio).taken_back);
+  EXPECT_TRUE(Told(30.0, 1.1 * borne_out_ratio).taken_back);
 }
 
 TEST(Denied, ANameThatLeavesThemMuchFartherOffIsTakenBackAndSaid) {

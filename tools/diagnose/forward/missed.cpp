@@ -50,6 +50,8 @@ class Asked {
       if (spoils_a_channel(forward_, rest.model, settled.model, far_worse_polished)) {
         progress_(fmt::format("closed loop, all numbers free, without {}: a channel is far worse, and that is no answer",
                               hypothesis->id));
+        const double as_it_is = rule_as_it_is(rest.fit, forward_, fitter_).value;
+        named->missed_nats = std::max(named->missed_nats, settled.value - as_it_is);
         continue;
       }
       if (settled.value - rest.value < std::max(doubtful_nats, nats_to_stay(*named))) asked_fairly(settled, rest, e);
