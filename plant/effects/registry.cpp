@@ -71,6 +71,7 @@ constexpr std::array table{
     presliding_memory,
     dwell_breakaway,
     frictional_lag,
+    frictional_lag_of_velocity,
     thermal_friction,
     friction_drift,
     position_friction,

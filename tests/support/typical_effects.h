@@ -27,6 +27,7 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"floor_vibration", {0.5, 25.0, 0.0}},
       {"friction_drift", {0.3, 1.0, 0.0}},
       {"frictional_lag", {8e-3}},
+      {"frictional_lag_of_velocity", {8e-3}},
       {"gravity", {30.0}},
       {"hard_stop", {2e-3, 1.0, 1e7, 1e4}},
       {"hidden_friction_compensation", {0.03, 1e-3}},

@@ -50,12 +50,14 @@ void tell_as_one_wave(Diagnosis& result) {
 }
 
 void tell_as_one_change(Diagnosis& result) {
-  const auto warm = place_of(result, "thermal_friction"), drift = place_of(result, "friction_drift");
-  if (warm == result.effects.end() || drift == result.effects.end()) return;
-  const bool by_work = warm->share >= drift->share;
-  const auto &told = by_work ? warm : drift, &other = by_work ? drift : warm;
-  told->sentence += fmt::format(" It follows that law roughly: the updated axis has {} beside it.", other->hypothesis->id);
-  result.effects.erase(other);
+  for (const auto& [first, second] : {std::pair{"thermal_friction", "friction_drift"},
+                                      std::pair{"frictional_lag", "frictional_lag_of_velocity"}}) {
+    const auto one = place_of(result, first), other = place_of(result, second);
+    if (one == result.effects.end() || other == result.effects.end()) continue;
+    const auto &told = one->share >= other->share ? one : other, &beside = one->share >= other->share ? other : one;
+    told->sentence += fmt::format(" It follows that law roughly: the updated axis has {} beside it.", beside->hypothesis->id);
+    result.effects.erase(beside);
+  }
 }
 
 void tell_as_one_friction_along(Diagnosis& result) {

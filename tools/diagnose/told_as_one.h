@@ -10,7 +10,8 @@ void tell_as_one_lead(Diagnosis& result);
 /// What wavers with the shaft and is no pure sine: its second or third harmonic found another name, that it is confused
 /// with.
 void tell_as_one_wave(Diagnosis& result);
-/// Friction that changes as the screw warms and as time goes by: of the two the one that explains more.
+/// Friction that changes as the screw warms and as time goes by, or lags behind speed and behind velocity: of the two the
+/// one that explains more.
 void tell_as_one_change(Diagnosis& result);
 /// Friction that grows along the stroke and goes up and down along it: of the two the one that explains more, with the
 /// numbers of both.

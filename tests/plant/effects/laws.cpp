@@ -113,6 +113,7 @@ TEST(Laws, ForceAtSteadySpeed) {
       {{"presliding_memory", {25.0, 1e-5}, {}},
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + (v > 0.0 ? 25.0 : -25.0); }},
       {{"frictional_lag", {0.01}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
+      {{"frictional_lag_of_velocity", {0.01}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
       {{"backlash", {1e-5, 6e7, 2e3}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N(); }},
       {{"learned_residual", {}, {{-1.0, 1.0}, {}, {}, {-8.0, 12.0}, {}, {}, {}}},
        [](const Nominal& n, double, const Steady& s) { return n.all_N() + 2.0 + 10.0 * s.position_m; }},

@@ -61,6 +61,7 @@ const std::map<std::string_view, Trial>& trials() {
       {"cyclic_lead_error", {{{"amplitude_m", 2e-6}, {"cycles_per_rev", 1.0}, {"phase_rad", 0.7}}, {0, 0, 1}}},
       {"encoder_eccentricity", {{{"amplitude_m", 6e-6}, {"cycles_per_rev", 2.0}, {"phase_rad", 0.7}}, {0, 0, 2}}},
       {"frictional_lag", {{{"time_constant_s", 0.012}}, {0}, 0.07, false}},
+      {"frictional_lag_of_velocity", {{{"time_constant_s", 0.012}}, {0}, 0.07, false}},
       {"local_friction",
        {{{"height_N", 15.0}, {"centre_m", 0.004}, {"half_width_m", 0.002}, {"on_screw", 1.0}}, {0, 0.0038, 0.002, 1}, 0.08}},
       {"dwell_breakaway", {{{"relative_rise", 0.4}, {"time_constant_s", 0.06}}, {0, 20.0, 0}, 0.25}},

@@ -48,6 +48,20 @@ TEST(TellAsOneFrictionAlong, ASlopeAndAWaveAreOneFindingWithTheNumbersOfBoth) {
   EXPECT_EQ(to_json(result, "")["effects"][1]["id"], "position_friction");
 }
 
+TEST(TellAsOneChange, LagsBehindSpeedAndBehindVelocityAreOneFinding) {
+  Diagnosis result;
+  result.effects = {named("frictional_lag", "time_constant_s", 0.002), named("cogging", "amplitude_Nm", 0.01),
+                    named("frictional_lag_of_velocity", "time_constant_s", 0.02)};
+  result.effects.front().share = 0.2;
+  result.effects.back().share = 0.5;
+  tell_as_one_change(result);
+  ASSERT_EQ(result.effects.size(), 2U);
+  EXPECT_EQ(result.effects.back().hypothesis->id, "frictional_lag_of_velocity");
+  const auto json = to_json(result, "");
+  EXPECT_EQ(json["effects"][1]["id"], "frictional_lag");
+  EXPECT_DOUBLE_EQ(json["effects"][1]["parameters"]["time_constant_s"]["value"].get<double>(), 0.02);
+}
+
 TEST(TellAsOneFrictionAlong, AWaveAloneIsToldAsFrictionAlongTheStroke) {
   Diagnosis result;
   result.effects = {named("position_friction_wave", "period_m", 0.04)};

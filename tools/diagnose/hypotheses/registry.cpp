@@ -28,6 +28,7 @@ std::vector<Hypothesis> registered() {
       cyclic_lead_error(),
       encoder_eccentricity(),
       frictional_lag(),
+      frictional_lag_of_velocity(),
       local_friction(),
       dwell_breakaway(),
       regeneration_clipped(),

@@ -29,6 +29,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis cyclic_lead_error();
 [[nodiscard]] Hypothesis encoder_eccentricity();
 [[nodiscard]] Hypothesis frictional_lag();
+[[nodiscard]] Hypothesis frictional_lag_of_velocity();
 [[nodiscard]] Hypothesis local_friction();
 [[nodiscard]] Hypothesis dwell_breakaway();
 [[nodiscard]] Hypothesis regeneration_clipped();
