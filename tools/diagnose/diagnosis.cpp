@@ -189,15 +189,13 @@ class Diagnosing {
       else
         progress_(fmt::format("{} is of a size that other physics has too: not named", in_words(*now, fit_.model.axis)));
     }
-    tell_as_one_lead(result_);
-    tell_as_one_wave(result_);
-    tell_as_one_change(result_);
-    tell_as_one_friction_along(result_);
-    tell_as_one_growth(result_, data_.fit.front().duration_s());
+    tell_as_one(result_, data_.fit.front().duration_s());
     if (auto difference = unknown_ ? std::nullopt : difference_by_direction(fitter_, fit_, covariance_))
       result_.effects.push_back(std::move(*difference));
     if (!unknown_) tell_load(result_, fitter_, fit_, covariance_);
     result_.recalibrated = recalibrated(fitter_, fit_, covariance_);
+    if (auto memory = unknown_ ? std::nullopt : memory_in_the_bristle(result_, fit_))
+      result_.effects.push_back(std::move(*memory));
     if (motor_presliding_m(data_.axis) == 0.0) result_.motor_presliding_m = motor_presliding_m(fit_.model.axis);
     auto ways = ways_of(fit_.model);
     if (result_.effects.empty()) ways.push_back(extended(found_.recalibrated.model)), ways.push_back(data_.axis);

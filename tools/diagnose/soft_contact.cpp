@@ -1,6 +1,14 @@
 #include "tools/diagnose/soft_contact.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "tools/diagnose/hypotheses/shapes.h"
+#include "tools/diagnose/reported.h"
+#include "tools/diagnose/sentence.h"
+#include "tools/intervals.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -15,6 +23,31 @@ bool worth_telling(const Active& active, const plant::AxisParameters& now, const
   const double yields_m = (mean(now.ball_screw.coulomb_N) + force_N) / file_N_per_m;
   return force_N > least_N && now.ball_screw.stiffness_N_per_m < softened * file_N_per_m &&
          distance_m > of_the_files_bristle * yields_m;
+}
+
+std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fit& fit) {
+  constexpr double softened = 0.17, surely_softened = 0.18, least_yield_m = 5e-6;
+  const Hypothesis& own = hypothesis("presliding_memory");
+  const auto takes_it_up = [&](const NamedEffect& one) {
+    return one.hypothesis == &own || easily_confused(*one.hypothesis, own) || one.hypothesis->id == "screw_compliance";
+  };
+  const auto bristle = std::ranges::find(told.recalibrated, "ball_screw.sigma0_N_per_m", &Recalibrated::key);
+  if (bristle == told.recalibrated.end() || std::ranges::any_of(told.effects, takes_it_up)) return std::nullopt;
+  const auto& now = bristle->now;
+  const double force_N = mean(fit.model.axis.ball_screw.coulomb_N), yields_m = force_N / now.value;
+  if (now.value > softened * bristle->was || now.high > surely_softened * bristle->was || yields_m < least_yield_m)
+    return std::nullopt;
+  const double deviation = std::max(0.5 * (now.high - now.low) / normal_90, 1e-3 * now.value);
+  NamedEffect effect = held_by_numbers(own, std::pow((bristle->was - now.value) / deviation, 2), fit);
+  // a bristle begins as steeply as elements of all yields up to twice its own; which of them there are it does not say
+  constexpr double as_steep = 2.0, at_least = 1.3, at_most = 3.0, half_of_force = 0.3;
+  effect.parameters = {
+      {"force_N", {force_N, (1.0 - half_of_force) * force_N, (1.0 + half_of_force) * force_N}},
+      {"distance_m", {as_steep * yields_m, at_least * force_N / now.high, at_most * force_N / std::max(now.low, 1.0)}}};
+  effect.sentence = sentence_of(effect) + fmt::format(" The recalibrated bristle of the ball screw holds it, {:.0f} times as "
+                                                      "soft as the file's.",
+                                                      bristle->was / now.value);
+  return effect;
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -85,4 +85,12 @@ void tell_as_one_growth(Diagnosis& result, double run_s) {
   result.effects.erase(lead);
 }
 
+void tell_as_one(Diagnosis& result, double run_s) {
+  tell_as_one_lead(result);
+  tell_as_one_wave(result);
+  tell_as_one_change(result);
+  tell_as_one_friction_along(result);
+  tell_as_one_growth(result, run_s);
+}
+
 }  // namespace feedtwin::tools::diagnosis

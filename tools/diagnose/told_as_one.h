@@ -20,5 +20,7 @@ void tell_as_one_friction_along(Diagnosis& result);
 /// by.
 /// @param run_s length of a run
 void tell_as_one_growth(Diagnosis& result, double run_s);
+/// All of these.
+void tell_as_one(Diagnosis& result, double run_s);
 
 }  // namespace feedtwin::tools::diagnosis

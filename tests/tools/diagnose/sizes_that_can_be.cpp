@@ -4,6 +4,7 @@
 
 #include "plant/parameter_table.h"
 #include "tools/diagnose/hypothesis.h"
+#include "tests/tools/diagnose/named_effect.h"
 #include "tools/diagnose/soft_contact.h"
 
 namespace feedtwin {
@@ -21,6 +22,7 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_FALSE(finding(80.0, 1.5e-6)) << "a bristle's own stiffness";
   EXPECT_FALSE(finding(35.0, 6e-6)) << "a contact of many elements where the model has one bristle";
   EXPECT_FALSE(finding(3.6, 1.2e-5)) << "a screw that yields";
+  EXPECT_FALSE(finding(6.0, 2.6e-5)) << "contacts of slipping elements with nothing hidden";
   EXPECT_TRUE(finding(4.1, 4.9e-5)) << "over more than any of them";
   EXPECT_FALSE(finding(1.9, 1.3e-5)) << "what is left of a torque constant";
   for (auto* coulomb_N : {&axis.ball_screw.coulomb_N, &axis.guide.coulomb_N}) *coulomb_N = {200.0, 200.0};
@@ -48,6 +50,35 @@ TEST(PreslidingMemory, IsToldWhereOnlyASoftenedBristleHidesIt) {
   EXPECT_FALSE(told(36.0, 3.0 * yields_m, 0.16));
   EXPECT_FALSE(told(3.0, 6.6 * yields_m, 0.16));
   EXPECT_FALSE(worth_telling({&hypothesis("screw_compliance"), {1e-10, 0.0}}, nominal, nominal));
+}
+
+TEST(PreslidingMemory, IsToldFromABristleThatAloneHoldsIt) {
+  Fit fit;
+  fit.cost = 1000.0;
+  fit.model.axis = plant::source_axis();
+  const double file_N_per_m = fit.model.axis.ball_screw.stiffness_N_per_m;
+  fit.model.axis.ball_screw.coulomb_N = {file_N_per_m * 1e-6, file_N_per_m * 1e-6};
+  const auto told = [&](double left, double uncertain, std::vector<NamedEffect> beside = {}) {
+    Diagnosis result;
+    result.effects = std::move(beside);
+    const double now = left * file_N_per_m, half = uncertain * file_N_per_m;
+    result.recalibrated = {{"ball_screw.sigma0_N_per_m", file_N_per_m, {now, now - half, now + half}}};
+    return memory_in_the_bristle(result, fit);
+  };
+  const auto memory = told(0.1, 0.004);
+  ASSERT_TRUE(memory);
+  EXPECT_EQ(memory->hypothesis->id, "presliding_memory");
+  const auto& [name, distance_m] = memory->parameters.back();
+  EXPECT_EQ(name, "distance_m");
+  EXPECT_NEAR(distance_m.value, 2e-5, 1e-9) << "as steep as a bristle that yields 10 um";
+  EXPECT_LT(distance_m.low, 1.5e-5);
+  EXPECT_GT(distance_m.high, 2.5e-5);
+  EXPECT_FALSE(told(0.2, 0.004)) << "as contacts of slipping elements with nothing hidden leave it";
+  EXPECT_FALSE(told(0.16, 0.03)) << "which may be one of 0.19";
+  EXPECT_FALSE(told(0.1, 0.004, {tests::named("backlash", "gap_m", 1e-6)}));
+  EXPECT_TRUE(told(0.1, 0.004, {tests::named("cogging", "amplitude_Nm", 0.01)}));
+  fit.model.axis.ball_screw.coulomb_N = {file_N_per_m * 4e-7, file_N_per_m * 4e-7};
+  EXPECT_FALSE(told(0.1, 0.004)) << "over 4 um a bristle of a tenth yields too";
 }
 
 TEST(PositionFriction, MayBeOfTheViscousPartAlone) {
