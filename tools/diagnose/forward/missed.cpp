@@ -47,7 +47,7 @@ class Asked {
       if (named == nullptr || !worth_naming(fit.model.effects[e], fit.model.axis)) continue;
       if (named->missed_nats > surely_missed * std::max(100.0, nats_to_stay(*named))) continue;
       Ruling rest = without_it(found, fit, settled, e);
-      if (spoils_a_channel(forward_, rest.model, settled.model, far_worse_polished)) {
+      if (likelier_at_a_channels_cost(rest, settled, *hypothesis)) {
         progress_(fmt::format("closed loop, all numbers free, without {}: a channel is far worse, and that is no answer",
                               hypothesis->id));
         const double as_it_is = rule_as_it_is(rest.fit, forward_, fitter_).value;
@@ -70,6 +70,12 @@ class Asked {
   }
 
  private:
+  /// Not of what numbers could do: there a channel far worse is what it takes to be without it.
+  [[nodiscard]] bool likelier_at_a_channels_cost(const Ruling& rest, const Ruling& settled, const Hypothesis& missing) const {
+    return rest.value > settled.value && !missing.absorbed &&
+           spoils_a_channel(forward_, rest.model, settled.model, far_worse_polished);
+  }
+
   /// The one that lacks most, if one does.
   [[nodiscard]] static std::optional<Lacking> least_of(std::vector<Lacking> asked, SearchResult& found) {
     const double most = most_missed_nats(found);
