@@ -44,9 +44,10 @@ std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fi
   effect.parameters = {
       {"force_N", {force_N, (1.0 - half_of_force) * force_N, (1.0 + half_of_force) * force_N}},
       {"distance_m", {as_steep * yields_m, at_least * force_N / now.high, at_most * force_N / std::max(now.low, 1.0)}}};
-  effect.sentence = sentence_of(effect) + fmt::format(" The recalibrated bristle of the ball screw holds it, {:.0f} times as "
-                                                      "soft as the file's.",
-                                                      bristle->was / now.value);
+  effect.sentence = sentence_of(effect) + fmt::format(
+                                              " The recalibrated bristle of the ball screw holds it, {:.0f} times as "
+                                              "soft as the file's.",
+                                              bristle->was / now.value);
   return effect;
 }
 

@@ -16,7 +16,8 @@ namespace feedtwin::tools::diagnosis {
                                  const plant::AxisParameters& nominal);
 
 /// The same where no memory was asked for, since the bristle alone makes most of it: a sixth of the file's stiffness is no
-/// wrong number. Contacts of slipping elements with nothing hidden left one of 0.205 at least, hidden memories 0.03 to 0.157.
+/// wrong number. Contacts of slipping elements with nothing hidden left one of 0.205 at least, hidden memories 0.03 to
+/// 0.157.
 /// @param told with its names and recalibrated numbers
 /// @return none where another name of what happens before sliding is told
 [[nodiscard]] std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fit& fit);

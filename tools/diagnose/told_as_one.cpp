@@ -50,12 +50,13 @@ void tell_as_one_wave(Diagnosis& result) {
 }
 
 void tell_as_one_change(Diagnosis& result) {
-  for (const auto& [first, second] : {std::pair{"thermal_friction", "friction_drift"},
-                                      std::pair{"frictional_lag", "frictional_lag_of_velocity"}}) {
+  for (const auto& [first, second] :
+       {std::pair{"thermal_friction", "friction_drift"}, std::pair{"frictional_lag", "frictional_lag_of_velocity"}}) {
     const auto one = place_of(result, first), other = place_of(result, second);
     if (one == result.effects.end() || other == result.effects.end()) continue;
     const auto &told = one->share >= other->share ? one : other, &beside = one->share >= other->share ? other : one;
-    told->sentence += fmt::format(" It follows that law roughly: the updated axis has {} beside it.", beside->hypothesis->id);
+    told->sentence +=
+        fmt::format(" It follows that law roughly: the updated axis has {} beside it.", beside->hypothesis->id);
     result.effects.erase(beside);
   }
 }

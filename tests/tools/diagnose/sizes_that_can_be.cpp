@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "plant/parameter_table.h"
-#include "tools/diagnose/hypothesis.h"
 #include "tests/tools/diagnose/named_effect.h"
+#include "tools/diagnose/hypothesis.h"
 #include "tools/diagnose/soft_contact.h"
 
 namespace feedtwin {

@@ -36,9 +36,8 @@ bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const
   if (!farther_than(error)) return false;
   // what it repeats so badly says little; but that it comes nearer than it repeats is no chance
   const Nrmse repeats = forward.noise_floor(extended(named));
-  return farther_than([&](const auto& channel) {
-    return std::clamp(repeats.at(channel), error(channel), far_worse * error(channel));
-  });
+  return farther_than(
+      [&](const auto& channel) { return std::clamp(repeats.at(channel), error(channel), far_worse * error(channel)); });
 }
 
 bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before) {

@@ -71,7 +71,8 @@ class Asked {
 
  private:
   /// Not of what numbers could do: there a channel far worse is what it takes to be without it.
-  [[nodiscard]] bool likelier_at_a_channels_cost(const Ruling& rest, const Ruling& settled, const Hypothesis& missing) const {
+  [[nodiscard]] bool likelier_at_a_channels_cost(const Ruling& rest, const Ruling& settled,
+                                                 const Hypothesis& missing) const {
     return rest.value > settled.value && !missing.absorbed &&
            spoils_a_channel(forward_, rest.model, settled.model, far_worse_polished);
   }

@@ -47,8 +47,8 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return rise > 0.03 && rise < 0.95 * largest_rise && rise_after(1.0, q) > 0.01;
 }
 
-/// What is there sooner is friction about reversals too: of six false ones beside slip elements each came to the fastest that
-/// is looked for, of the true ones the fastest to 0.08 s.
+/// What is there sooner is friction about reversals too: of six false ones beside slip elements each came to the fastest
+/// that is looked for, of the true ones the fastest to 0.08 s.
 bool finding(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   constexpr double soonest_s = 0.05;
   return 1.0 / q[1] > soonest_s;

@@ -45,7 +45,8 @@ void apply_of_velocity(const View& view, std::span<const double> q, Contribution
     const double v = track.velocity_m_per_s[k];
     const double mean = v + (film - v) * q[0] / track.sample_s * (1.0 - kept);  // over the sample
     film = v + (film - v) * kept;
-    factor[k] = plant::stribeck_force_N(screw, v > 0.0, std::abs(mean)) / plant::stribeck_force_N(screw, v > 0.0, std::abs(v));
+    factor[k] =
+        plant::stribeck_force_N(screw, v > 0.0, std::abs(mean)) / plant::stribeck_force_N(screw, v > 0.0, std::abs(v));
     screw_N[k] = viscous_N(mean) - viscous_N(v);
   }
   scale(sum.screw_sliding, factor);
@@ -63,24 +64,25 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 }  // namespace
 
 Hypothesis frictional_lag() {
-  return {.id = "frictional_lag",
-          .component = "ball_screw",
-          .channel = "torque_cmd_Nm",
-          .where = Where::time,
-          .parameters = {{"time_constant_s", Kind::amplitude, 1e-3, 0.0, 0.2}},
-          .shapes = {{}},
-          .apply = apply,
-          .named = named,
-          .admissible = possible,
-          .sentence = "friction follows speed with a lag of {time_constant_s} s",
+  return {
+      .id = "frictional_lag",
+      .component = "ball_screw",
+      .channel = "torque_cmd_Nm",
+      .where = Where::time,
+      .parameters = {{"time_constant_s", Kind::amplitude, 1e-3, 0.0, 0.2}},
+      .shapes = {{}},
+      .apply = apply,
+      .named = named,
+      .admissible = possible,
+      .sentence = "friction follows speed with a lag of {time_constant_s} s",
 
-          // true ones were missed by 6018 and more, false ones of three hands, beside friction of slip elements, by up to 1131
-          .least_missed_nats = 1200.0,
-          .least_deviations = deviations_of_lags,
-          .confused_with = {"input_delay", "current_loop_lag"},
-          .reaches = {1.0, 10.0},
-          .friction = true,
-          .forces_too = true};
+      // true ones were missed by 6018 and more, false ones of three hands, beside friction of slip elements, by up to 1131
+      .least_missed_nats = 1200.0,
+      .least_deviations = deviations_of_lags,
+      .confused_with = {"input_delay", "current_loop_lag"},
+      .reaches = {1.0, 10.0},
+      .friction = true,
+      .forces_too = true};
 }
 
 /// A law of the same physics: what lags has a sign.

@@ -9,8 +9,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double least_left = 0.01;  // of sliding friction, as the plant has it
-/// More would turn friction round within the stroke: on two laps of the EMPS axis -3 times the small part that was the screw's
-/// stood for what its other numbers say.
+/// More would turn friction round within the stroke: on two laps of the EMPS axis -3 times the small part that was the
+/// screw's stood for what its other numbers say.
 constexpr double most_slope = 1.5;
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {

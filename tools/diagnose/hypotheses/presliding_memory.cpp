@@ -40,9 +40,10 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 /// Over what a bristle itself yields (F_C / sigma0: 1.5 um) it is no more than the bristle's own stiffness; over a few times
 /// that, how one bristle simplifies any real contact, of up to what screw and guide have (75 N). Contacts made of eight
 /// slipping elements came out as 17 to 49 N over 3 to 6.3 um, of six and 134 to 373 N as 73 to 147 N over 3 to 5.3 um, of a
-/// bristle of 6 um as 11 N over 15 um, of one of 300 nulls as 6 N over 26 um; a screw that yields as up to 3.6 N over 10 um and more, what was left of a torque
-/// constant as 1.9 N over 13 um; over more than that nothing else has it. Where there is more friction, or a bristle that
-/// yields more, so much more is the contact's own; the fit takes what the memory holds from the screw's friction.
+/// bristle of 6 um as 11 N over 15 um, of one of 300 nulls as 6 N over 26 um; a screw that yields as up to 3.6 N over 10 um
+/// and more, what was left of a torque constant as 1.9 N over 13 um; over more than that nothing else has it. Where there is
+/// more friction, or a bristle that yields more, so much more is the contact's own; the fit takes what the memory holds from
+/// the screw's friction.
 bool finding(std::span<const double> q, const plant::AxisParameters& axis) {
   constexpr double of_any_contact_N = 60.0, of_a_bristle_m = 3e-6;
   constexpr double of_a_yielding_screw_N = 7.0, of_any_contact_m = 1e-5, of_nothing_else_N = 2.0, of_nothing_else_m = 3e-5;
