@@ -27,18 +27,18 @@ class FrictionalLag final : public Effect {
   void scale(const EffectMotion& m, FrictionScale<double>& scale) const noexcept override {
     if (time_constant_s_ == 0.0) return;
     const double speed = std::abs(m.velocity_m_per_s);
-    const double film = std::abs(mean_film_m_per_s(m));
+    const double film = std::abs(mean_film_m_per_s(m, remaining(m.h_s)));
     scale.screw_sliding *= ratio(screw_, m.sign, film, speed);
     if constexpr (!of_velocity) scale.guide_sliding *= ratio(guide_, m.sign, film, speed);
   }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
     if (time_constant_s_ == 0.0) return {};
-    const double film = mean_film_m_per_s(m);
+    const double left = remaining(m.h_s), film = mean_film_m_per_s(m, left);
     if constexpr (of_velocity) {
       const Directional& mu = screw_.viscous_Ns_per_m;
       const double of_film = film < 0.0 ? mu.neg : mu.pos, of_axis = m.sign > 0.0 ? mu.pos : mu.neg;
-      return {of_film * film - of_axis * m.velocity_m_per_s, of_film * (1.0 - remaining(m.h_s)) - of_axis};
+      return {of_film * film - of_axis * m.velocity_m_per_s, of_film * (1.0 - left) - of_axis};
     }
     constexpr double v0_m_per_s = 1e-4;
     const double speed = std::abs(m.velocity_m_per_s);
@@ -48,7 +48,7 @@ class FrictionalLag final : public Effect {
     const double late = film - speed;
     const double fade = speed / (speed + v0_m_per_s);
     const double fade_slope = v0_m_per_s / ((speed + v0_m_per_s) * (speed + v0_m_per_s));
-    return {forth * mu * late * fade, mu * (late * fade_slope - remaining(m.h_s) * fade)};
+    return {forth * mu * late * fade, mu * (late * fade_slope - left * fade)};
   }
 
   void advance(const EffectMotion& m) noexcept override {
@@ -66,9 +66,9 @@ class FrictionalLag final : public Effect {
     const double y = h_s / time_constant_s_;
     return y > 1e-6 ? (1.0 - std::exp(-y)) / y : 1.0 - 0.5 * y;
   }
-  [[nodiscard]] double mean_film_m_per_s(const EffectMotion& m) const noexcept {
+  [[nodiscard]] double mean_film_m_per_s(const EffectMotion& m, double left) const noexcept {
     const double now = followed_m_per_s(m);
-    return now + (film_m_per_s_ - now) * remaining(m.h_s);
+    return now + (film_m_per_s_ - now) * left;
   }
   [[nodiscard]] static double ratio(const LugreParameters& p, double sign, double film, double speed) noexcept {
     const bool pos = sign > 0.0;

@@ -82,7 +82,7 @@ std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const 
         cover(track.centred_m_per_s.minCoeff(), track.centred_m_per_s.maxCoeff());
         break;
       case Where::reversal:
-        cover(0.0, 0.05);
+        cover(0.0, about_a_reversal_s);
         break;
       default:
         cover(0.0, static_cast<double>(track.size) * track.sample_s);

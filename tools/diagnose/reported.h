@@ -8,6 +8,8 @@ namespace feedtwin::tools::diagnosis {
 /// Friction's laws are never quite the machine's, and that is in no residual's scatter: of 174 numbers in made cases (two
 /// sets that were looked at before) intervals of 90 % by the scatter alone held 0.75, twice as wide ones 0.86.
 inline constexpr double for_the_laws = 2.0;
+/// How long after a reversal an effect that acts there is said to act.
+inline constexpr double about_a_reversal_s = 0.05;
 
 /// @param covariance of the base parameters, in tolerances, and then of the effects' working parameters
 [[nodiscard]] NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance,

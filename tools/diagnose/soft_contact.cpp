@@ -40,14 +40,14 @@ std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fi
   const double deviation = std::max(0.5 * (now.high - now.low) / normal_90, 1e-3 * now.value);
   NamedEffect effect = held_by_numbers(own, std::pow((bristle->was - now.value) / deviation, 2), fit);
   // a bristle begins as steeply as elements of all yields up to twice its own; which of them there are it does not say
-  constexpr double as_steep = 2.0, at_least = 1.3, at_most = 3.0, half_of_force = 0.3;
+  constexpr double as_steep = 2.0, at_least = 1.3, at_most = 3.0, force_share = 0.3;
   effect.parameters = {
-      {"force_N", {force_N, (1.0 - half_of_force) * force_N, (1.0 + half_of_force) * force_N}},
+      {"force_N", {force_N, (1.0 - force_share) * force_N, (1.0 + force_share) * force_N}},
       {"distance_m", {as_steep * yields_m, at_least * force_N / now.high, at_most * force_N / std::max(now.low, 1.0)}}};
-  effect.sentence = sentence_of(effect) + fmt::format(
-                                              " The recalibrated bristle of the ball screw holds it, {:.0f} times as "
-                                              "soft as the file's.",
-                                              bristle->was / now.value);
+  effect.intervals = {{0.0, about_a_reversal_s}};
+  effect.sentence = sentence_of(effect);
+  effect.sentence += fmt::format(" The recalibrated bristle of the ball screw holds it, {:.0f} times as soft as the file's.",
+                                 bristle->was / now.value);
   return effect;
 }
 

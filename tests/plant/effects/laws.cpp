@@ -160,29 +160,6 @@ TEST(Laws, BreakawayRisesWithDwell) {
   }
 }
 
-TEST(Laws, FrictionLagsBehindSpeed) {
-  AxisParameters p = test::smooth_axis();
-  constexpr double lag_s = 8e-3;
-  p.effects = {{"frictional_lag", {lag_s}, {}}};
-  FeedAxis axis(p);
-  test::ReferenceBody body;
-  const auto command_Nm = [](int i) { return 0.06 + 0.04 * std::sin(0.2 * i) + (i % 50 < 10 ? 0.05 : 0.0); };
-  double film = 0.0, last_t = 0.0, worst_m = 0.0;
-  for (int i = 0; i < 400; ++i) {
-    axis.step({command_Nm(i)}, tick_s);
-    body.run(
-        tick_s, [&](double) { return rad_per_m * command_Nm(i); },
-        [&](double t, double, double v) {
-          film += (std::abs(v) - film) * (t - last_t) / lag_s;
-          last_t = t;
-          return 800.0 * (film - v) * v / (v + 1e-4);
-        });
-    worst_m = std::max(worst_m, std::abs(axis.state().position_m - body.x));
-  }
-  EXPECT_LT(worst_m, 1e-6) << "of a way of " << body.x << " m";
-  EXPECT_GT(body.x, 0.02);
-}
-
 TEST(Laws, HiddenCompensationFollowsWhatTheDriveIsToldToReach) {
   AxisParameters p = source_axis();
   p.effects = {{"hidden_friction_compensation", {0.03, 1e-3}, {}}};

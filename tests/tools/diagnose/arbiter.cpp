@@ -60,6 +60,13 @@ TEST(Arbiter, OfACaseOfTheOtherTheSimplerIsToldWhereItIsAsLikely) {
   EXPECT_EQ(between(growth, gap, 10.0, false), Between::both_in_question) << "neither is a case of the other";
 }
 
+TEST(FarWorse, IsNotWhatAModelRepeatsAsBadlyButWhatItComesNearerThanByChance) {
+  EXPECT_TRUE(is_far_worse(0.16, 0.1, 0.05, 1.5));
+  EXPECT_FALSE(is_far_worse(0.14, 0.1, 0.05, 1.5));
+  EXPECT_FALSE(is_far_worse(0.16, 0.1, 0.12, 1.5)) << "which it repeats no better";
+  EXPECT_TRUE(is_far_worse(0.028, 0.0068, 0.021, 1.5)) << "a stop: 4.1 times as far off, and repeated at 3";
+}
+
 TEST(Arbiter, ARivalThatSpoilsAChannelTakesNoPlace) {
   auto truth = plant::source_axis();
   truth.effects.push_back(tests::effect("backlash", {{"gap_m", 8e-6}}));

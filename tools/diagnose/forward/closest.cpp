@@ -27,17 +27,18 @@ std::size_t closest(const ForwardModel& forward, const std::vector<AxisByRun>& a
   return best;
 }
 
+bool is_far_worse(double rival, double named, double repeated, double far_worse) {
+  return rival > far_worse * std::clamp(repeated, named, far_worse * named);
+}
+
 bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named, double far_worse) {
   const Nrmse by_rival = forward.nrmse(extended(rival)), by_named = forward.nrmse(extended(named));
-  const auto farther_than = [&](const auto& least) {
-    return std::ranges::any_of(by_rival, [&](const auto& of) { return of.second > far_worse * least(of.first); });
+  const auto farther_than = [&](const Nrmse& repeated) {
+    return std::ranges::any_of(by_rival, [&](const auto& of) {
+      return is_far_worse(of.second, by_named.at(of.first), repeated.at(of.first), far_worse);
+    });
   };
-  const auto error = [&](const auto& channel) { return by_named.at(channel); };
-  if (!farther_than(error)) return false;
-  // what it repeats so badly says little; but that it comes nearer than it repeats is no chance
-  const Nrmse repeats = forward.noise_floor(extended(named));
-  return farther_than(
-      [&](const auto& channel) { return std::clamp(repeats.at(channel), error(channel), far_worse * error(channel)); });
+  return farther_than(by_named) && farther_than(forward.noise_floor(extended(named)));
 }
 
 bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before) {

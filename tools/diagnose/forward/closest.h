@@ -15,6 +15,11 @@ namespace feedtwin::tools::diagnosis {
 /// table's mass the likeliest.
 inline constexpr double far_worse_polished = 1.5;
 
+/// By errors of a channel alone: what a model repeats badly says little of it, but that the model comes nearer than it
+/// repeats is no chance.
+/// @param repeated the named model's error on what it makes itself, as recorded
+[[nodiscard]] bool is_far_worse(double rival, double named, double repeated, double far_worse);
+
 /// Does the rival leave a channel far worse than the named one does, as the inverse model has it? Then the sum over all
 /// channels is another's doing: a screw's compliance was 31634 nats likelier than the gap that was there, and four times as
 /// far off on the scale.

@@ -10,25 +10,48 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+/// What follows the motion late: its mean over each sample.
+/// @param followed of a velocity
+template <typename Followed>
+Vector late(const Track& track, double time_constant_s, const Followed& followed) {
+  const double kept = time_constant_s > 1e-9 ? std::exp(-track.sample_s / time_constant_s) : 0.0;
+  Vector mean(track.size);
+  double film = 0.0;
+  for (Index k = 0; k < track.size; ++k) {
+    const double now = followed(track.velocity_m_per_s[k]);
+    mean[k] = now + (film - now) * time_constant_s / track.sample_s * (1.0 - kept);
+    film = now + (film - now) * kept;
+  }
+  return mean;
+}
+
+/// g of the film in place of that of the speed.
+Vector sliding(const Track& track, const plant::LugreParameters& screw, const Vector& film) {
+  Vector factor(track.size);
+  for (Index k = 0; k < track.size; ++k) {
+    const double v = track.velocity_m_per_s[k];
+    const bool forth = v > 0.0;
+    factor[k] =
+        plant::stribeck_force_N(screw, forth, std::abs(film[k])) / plant::stribeck_force_N(screw, forth, std::abs(v));
+  }
+  return factor;
+}
+
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const auto& screw = view.ball_screw();
   const auto& guide = view.axis().guide;
   constexpr double small_m_per_s = 1e-4;
-  const double kept = q[0] > 1e-9 ? std::exp(-track.sample_s / q[0]) : 0.0;
-  Vector factor = Vector::Ones(track.size), screw_N(track.size), guide_N(track.size);
-  double film = 0.0;
+  const Vector film = late(track, q[0], [](double v) { return std::abs(v); });
+  Vector screw_N(track.size), guide_N(track.size);
   for (Index k = 0; k < track.size; ++k) {
     const double v = track.velocity_m_per_s[k], speed = std::abs(v);
     const bool forth = v > 0.0;
-    const double mean = speed + (film - speed) * q[0] / track.sample_s * (1.0 - kept);  // over the sample
-    film = speed + (film - speed) * kept;
-    factor[k] = plant::stribeck_force_N(screw, forth, mean) / plant::stribeck_force_N(screw, forth, speed);
-    const double late = (forth ? 1.0 : -1.0) * (mean - speed) * speed / (speed + small_m_per_s);
-    screw_N[k] = (forth ? screw.viscous_Ns_per_m.pos : screw.viscous_Ns_per_m.neg) * late;
-    guide_N[k] = (forth ? guide.viscous_Ns_per_m.pos : guide.viscous_Ns_per_m.neg) * late;
+    const double behind = (forth ? 1.0 : -1.0) * (film[k] - speed) * speed / (speed + small_m_per_s);
+    screw_N[k] = (forth ? screw.viscous_Ns_per_m.pos : screw.viscous_Ns_per_m.neg) * behind;
+    guide_N[k] = (forth ? guide.viscous_Ns_per_m.pos : guide.viscous_Ns_per_m.neg) * behind;
   }
-  scale(sum.screw_sliding, factor);
+  scale(sum.screw_sliding, sliding(track, screw, film));
   add(sum.screw_N, about_sample(screw_N));
   add(sum.guide_N, about_sample(guide_N));
 }
@@ -38,18 +61,10 @@ void apply_of_velocity(const View& view, std::span<const double> q, Contribution
   const Track& track = view.track;
   const auto& screw = view.ball_screw();
   const auto viscous_N = [&](double v) { return (v < 0.0 ? screw.viscous_Ns_per_m.neg : screw.viscous_Ns_per_m.pos) * v; };
-  const double kept = q[0] > 1e-9 ? std::exp(-track.sample_s / q[0]) : 0.0;
-  Vector factor = Vector::Ones(track.size), screw_N(track.size);
-  double film = 0.0;
-  for (Index k = 0; k < track.size; ++k) {
-    const double v = track.velocity_m_per_s[k];
-    const double mean = v + (film - v) * q[0] / track.sample_s * (1.0 - kept);  // over the sample
-    film = v + (film - v) * kept;
-    factor[k] =
-        plant::stribeck_force_N(screw, v > 0.0, std::abs(mean)) / plant::stribeck_force_N(screw, v > 0.0, std::abs(v));
-    screw_N[k] = viscous_N(mean) - viscous_N(v);
-  }
-  scale(sum.screw_sliding, factor);
+  const Vector film = late(track, q[0], [](double v) { return v; });
+  Vector screw_N(track.size);
+  for (Index k = 0; k < track.size; ++k) screw_N[k] = viscous_N(film[k]) - viscous_N(track.velocity_m_per_s[k]);
+  scale(sum.screw_sliding, sliding(track, screw, film));
   add(sum.screw_N, about_sample(screw_N));
 }
 
