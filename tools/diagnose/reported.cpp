@@ -96,9 +96,10 @@ std::vector<std::pair<double, double>> acts_in(const NamedEffect& effect, const 
 std::string parts_of_runs(const Active& active) {
   std::string parts;
   for (std::size_t run = 0; run < line_runs; ++run) {
-    const Window window = window_of_run(active.hypothesis->first_window, active.q, run);
-    if (!window.whole())
-      parts += fmt::format("{}{:.3g} to {:.3g} s", parts.empty() ? "" : ", ", window.start_s, window.end_s);
+    std::string of_run;
+    for (const Window& window : windows_of_run(active.hypothesis->first_window, active.q, run))
+      of_run += fmt::format("{}{:.3g} to {:.3g} s", of_run.empty() ? "" : " and ", window.start_s, window.end_s);
+    if (!of_run.empty()) parts += (parts.empty() ? "" : ", ") + of_run;
   }
   return fmt::format(" It acts in a part of a run alone: {}; a held-out run's is taken from that run.", parts);
 }

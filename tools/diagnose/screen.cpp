@@ -34,16 +34,25 @@ double line_power(const InverseModel& model, const Vector& white, double frequen
   return power;
 }
 
-/// Of the strongest lines those that act in a part of the runs, as shapes of their own: frequency, then start and end by
-/// run.
+/// Between the grid's frequencies: a phase that runs away within a run would end each cut.
+double strongest_near(const InverseModel& model, const Vector& white, double frequency_Hz) {
+  constexpr double reach_Hz = 0.1, step_Hz = 0.01;
+  std::pair<double, double> best{0.0, frequency_Hz};
+  for (double f = frequency_Hz - reach_Hz; f < frequency_Hz + reach_Hz; f += step_Hz)
+    best = std::max(best, {line_power(model, white, f), f});
+  return best.second;
+}
+
+/// Of the strongest lines those that act in parts of the runs, as shapes of their own: frequency, then the parts by run.
 void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& white) {
   constexpr std::size_t strongest = 3;
   for (std::size_t i = 0; i < std::min(strongest, kept.size()); ++i) {
     std::vector<double> shape = kept[i];
-    std::size_t at = 1;
-    for (const Window& window : windows_of_line(model, white, shape[0]))
-      shape[at++] = window.start_s, shape[at++] = window.end_s;
-    if (shape != kept[i]) kept.push_back(std::move(shape));  // last: the others meet the same chance with it or without
+    const double frequency_Hz = strongest_near(model, white, shape[0]);
+    set_windows(1, shape, windows_of_line(model, white, frequency_Hz));
+    if (shape == kept[i]) continue;
+    shape[0] = frequency_Hz;
+    kept.push_back(std::move(shape));  // last: the others meet the same chance with it or without
   }
 }
 

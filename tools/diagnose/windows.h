@@ -1,6 +1,7 @@
 #pragma once
 // A force that acts in a part of each run, as a process does while the tool is in the cut.
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -14,16 +15,24 @@ struct Window {
   [[nodiscard]] bool whole() const { return end_s <= start_s; }
 };
 
-/// Its part of the time about each sample of a run.
-[[nodiscard]] Vector covered(const Window& window, Index samples, double sample_s);
+/// Of one run, in order: a tool comes into the cut time and again. None: all of the run.
+using Windows = std::vector<Window>;
 
-/// Where in each run a line acts: the part in which the whitened rows of the table's force hold most of it, by a third more
-/// than all of them do; otherwise all of a run.
-[[nodiscard]] std::vector<Window> windows_of_line(const InverseModel& model, const Vector& white, double frequency_Hz);
+/// As many as a run can have.
+inline constexpr std::size_t most_windows = 8;
+/// Working parameters that all of them take: start and end of each, run by run.
+inline constexpr std::size_t window_parameters = line_runs * most_windows * 2;
+
+/// Their part of the time about each sample of a run.
+[[nodiscard]] Vector covered(std::span<const Window> windows, Index samples, double sample_s);
+
+/// Where in each run a line acts: the parts that together hold it, by more than its having no end would and than each of
+/// their edges costs; otherwise all of a run.
+[[nodiscard]] std::vector<Windows> windows_of_line(const InverseModel& model, const Vector& white, double frequency_Hz);
 
 /// Of an effect's working parameters, see Hypothesis::first_window; any further run shares the last one's.
-[[nodiscard]] Window window_of_run(std::size_t first_window, std::span<const double> q, std::size_t run);
-void set_windows(std::size_t first_window, std::span<double> q, std::span<const Window> windows);
+[[nodiscard]] Windows windows_of_run(std::size_t first_window, std::span<const double> q, std::size_t run);
+void set_windows(std::size_t first_window, std::span<double> q, std::span<const Windows> windows);
 /// Does it act in a part of any run alone?
 [[nodiscard]] bool windowed(std::size_t first_window, std::span<const double> q);
 [[nodiscard]] inline bool windowed(const Active& active) {

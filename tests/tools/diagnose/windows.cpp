@@ -23,15 +23,16 @@ using namespace tools::diagnosis;
 
 constexpr double frequency_Hz = 71.0, amplitude_N = 6.0, mean_N = 3.0, opposing_N = 2.0;
 
-tools::Recording cut(Window in_cut, double phase_rad) {
+tools::Recording cut(const Windows& cuts, double phase_rad) {
   auto axis = plant::source_axis();
-  axis.effects.push_back(tests::effect("process_force", {{"mean_N", mean_N},
-                                                         {"opposing_N", opposing_N},
-                                                         {"amplitude_N", amplitude_N},
-                                                         {"frequency_Hz", frequency_Hz},
-                                                         {"phase_rad", phase_rad},
-                                                         {"start_s", in_cut.start_s},
-                                                         {"end_s", in_cut.end_s}}));
+  for (const Window& in_cut : cuts)
+    axis.effects.push_back(tests::effect("process_force", {{"mean_N", mean_N},
+                                                           {"opposing_N", opposing_N},
+                                                           {"amplitude_N", amplitude_N},
+                                                           {"frequency_Hz", frequency_Hz},
+                                                           {"phase_rad", phase_rad},
+                                                           {"start_s", in_cut.start_s},
+                                                           {"end_s", in_cut.end_s}}));
   auto recording = tests::make_recording(axis, {.motion = "sine", .duration_s = 4.0});
   std::mt19937 random(7);
   std::normal_distribution<double> noise_N(0.0, 0.5);
@@ -47,28 +48,30 @@ struct Cut {
   Fitter fitter{model, nominal};
   Whitening whitening;
 
-  Cut(Window first, Window second)
+  Cut(const Windows& first, const Windows& second)
       : model(make_tracks(runs(first, second), nominal), nominal),
-        unseen(make_tracks({cut({0.511, 1.403}, -2.0)}, nominal), nominal) {
-    // of runs that are cut later: in such short ones the noise would take the process for its own colour
-    const Window later{100.0, 101.0};
-    const InverseModel calm(make_tracks({cut(later, 0.0), cut(later, 0.0)}, nominal), nominal);
+        unseen(make_tracks({cut({{0.511, 1.403}}, -2.0)}, nominal), nominal) {
+    // of runs without a cut: in such short ones the noise would take the process for its own colour
+    const InverseModel calm(make_tracks({cut({}, 0.0), cut({}, 0.0)}, nominal), nominal);
     whitening = Whitening::estimate(calm, calm.residual(nominal, {}));
   }
-  std::vector<tools::Recording> runs(Window first, Window second) {
+  std::vector<tools::Recording> runs(const Windows& first, const Windows& second) {
     data.fit = {cut(first, 0.4), cut(second, 1.9)};
     return data.fit;
   }
 };
 
-void expect_window(Window found, Window truth) {
+void expect_windows(const Active& process, std::size_t run, const Windows& truth) {
   constexpr double near_s = 0.08;  // about a reversal friction holds the table, and nothing shows
-  EXPECT_NEAR(found.start_s, truth.start_s, near_s);
-  EXPECT_NEAR(found.end_s, truth.end_s, near_s);
+  const auto found = windows_of_run(process.hypothesis->first_window, process.q, run);
+  ASSERT_EQ(found.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_NEAR(found[i].start_s, truth[i].start_s, near_s);
+    EXPECT_NEAR(found[i].end_s, truth[i].end_s, near_s);
+  }
 }
 
-TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
-  const Window first{0.803, 2.204}, second{1.752, 3.106};
+void expect_found(const Windows& first, const Windows& second) {
   const Cut made(first, second);
   Fit fit = made.fitter.fit({made.nominal, {}}, made.whitening, 4);
   const auto scores = screen(made.fitter, fit, made.whitening).scores;
@@ -76,8 +79,8 @@ TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
   fit = fit_with(made.fitter, fit.model, *score, 0, made.whitening, 8);
   const Active& process = fit.model.effects.front();
   ASSERT_TRUE(windowed(process));
-  expect_window(window_of_run(process.hypothesis->first_window, process.q, 0), first);
-  expect_window(window_of_run(process.hypothesis->first_window, process.q, 1), second);
+  expect_windows(process, 0, first);
+  expect_windows(process, 1, second);
   const auto values = process.hypothesis->named(process.q, made.nominal);
   const auto value = [&](std::string_view name) { return std::ranges::find(values, name, &NamedValue::name)->value; };
   EXPECT_NEAR(value("amplitude_N"), amplitude_N, 0.3);
@@ -86,12 +89,20 @@ TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
   EXPECT_NEAR(value("opposing_N"), opposing_N, 0.5);
 
   const Active told = for_unseen(made.unseen, made.whitening, fit.model).effects.front();
-  expect_window(window_of_run(told.hypothesis->first_window, told.q, 0), {0.511, 1.403});
+  expect_windows(told, 0, {{0.511, 1.403}});
+}
+
+TEST(Windows, AreFoundWithWhatActsInThemAndAnUnseenRunsAreItsOwn) {
+  expect_found({{0.803, 2.204}}, {{1.752, 3.106}});
+}
+
+TEST(Windows, AreFoundWhereTheToolComesIntoTheCutTimeAndAgain) {
+  expect_found({{0.603, 1.004}, {1.407, 2.204}, {2.801, 3.607}}, {{0.652, 1.306}, {2.252, 2.906}});
 }
 
 // The law of the inverse model, handed to the plant run by run.
 TEST(Windows, AreEachRunsOwnInTheClosedLoop) {
-  const Window first{0.803, 2.204}, second{1.752, 3.106};
+  const Windows first{{0.803, 1.204}, {1.607, 2.204}}, second{{1.752, 3.106}};
   const Cut made(first, second);
   Active process{&hypothesis("process_force"), {}};
   for (const double phase_rad : {0.4, 1.9, 0.4, 0.4})
@@ -107,15 +118,15 @@ TEST(Windows, AreEachRunsOwnInTheClosedLoop) {
 }
 
 TEST(Windows, AreNoneWhereTheProcessNeverStops) {
-  const Cut made({0.0, 1e9}, {0.0, 1e9});
+  const Cut made({{0.0, 1e9}}, {{0.0, 1e9}});
   const Fit fit = made.fitter.fit({made.nominal, {}}, made.whitening, 4);
   const Vector white = made.whitening.applied(made.model, made.model.residual(fit.model.axis, {}));
-  for (const Window& window : windows_of_line(made.model, white, frequency_Hz)) EXPECT_TRUE(window.whole());
+  for (const auto& of_run : windows_of_line(made.model, white, frequency_Hz)) EXPECT_TRUE(of_run.empty());
 }
 
 TEST(Windows, AShareOfASampleIsCovered) {
-  const Vector share = covered({0.0012, 0.0030}, 6, 1e-3);
-  const std::vector<double> expected{0.0, 0.3, 1.0, 0.5, 0.0, 0.0};
+  const Vector share = covered(Windows{{0.0012, 0.0030}, {0.0036, 0.0044}}, 6, 1e-3);
+  const std::vector<double> expected{0.0, 0.3, 1.0, 0.5, 0.8, 0.0};
   for (Index k = 0; k < share.size(); ++k) EXPECT_NEAR(share[k], expected[static_cast<std::size_t>(k)], 1e-9) << k;
 }
 

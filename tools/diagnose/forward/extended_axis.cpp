@@ -43,15 +43,27 @@ void set_phases(AxisByRun& all, const Active& line) {
     set_number(all.runs[run], line, name, std::arg(line.hypothesis->line_of(line.q, run)));
 }
 
+/// One setting a part: the same force in each.
+void set_parts_of(plant::AxisParameters& axis, const Active& active, const Windows& windows) {
+  if (windows.empty()) return;
+  const auto is_one = [&](const plant::EffectSetting& setting) { return setting.id == active.hypothesis->id; };
+  const auto found = std::ranges::find_if(axis.effects, is_one);
+  if (found == axis.effects.end()) return;
+  const plant::EffectSetting any = *found;
+  axis.effects.erase(found);
+  for (const Window& window : windows) {
+    axis.effects.push_back(any);
+    const auto& entry = *plant::find_effect(any.id);
+    *plant::value_in(axis.effects.back(), entry, "start_s") = window.start_s;
+    *plant::value_in(axis.effects.back(), entry, "end_s") = window.end_s;
+  }
+}
+
 /// The first run's are what is handed on.
 void set_parts(AxisByRun& all, const Active& active) {
-  for (std::size_t run = line_runs; run-- > 0;) {
-    const Window window = window_of_run(active.hypothesis->first_window, active.q, run);
-    for (auto* axis : {&all.runs[run], &all.common}) {
-      set_number(*axis, active, "start_s", window.start_s);
-      set_number(*axis, active, "end_s", window.whole() ? 1e9 : window.end_s);
-    }
-  }
+  for (std::size_t run = 0; run < line_runs; ++run)
+    set_parts_of(all.runs[run], active, windows_of_run(active.hypothesis->first_window, active.q, run));
+  set_parts_of(all.common, active, windows_of_run(active.hypothesis->first_window, active.q, 0));
 }
 
 void set_states(AxisByRun& all, const Active& active) {
@@ -70,8 +82,8 @@ AxisByRun with_phases_of(const Candidate& model, plant::AxisParameters axis) {
     if (h.line_of == nullptr && h.state.empty()) continue;
     if (all.runs.empty()) all.runs.assign(line_runs, all.common);
     if (h.line_of != nullptr) set_phases(all, active);
-    if (windowed(active)) set_parts(all, active);
     if (!h.state.empty()) set_states(all, active);
+    if (windowed(active)) set_parts(all, active);
   }
   return all;
 }

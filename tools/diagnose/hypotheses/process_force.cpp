@@ -16,12 +16,12 @@ constexpr std::size_t mean = 2 * line_runs + 1, opposing = mean + 1, first_windo
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
-  const Window cut = window_of_run(first_window, q, track.run);
-  if (cut.whole()) return add_line(track, q, sum.guide_N);
+  const Windows cuts = windows_of_run(first_window, q, track.run);
+  if (cuts.empty()) return add_line(track, q, sum.guide_N);
   Vector force_N =
       (q[mean] + q[opposing] * (track.centred_m_per_s.array() / plant::effects::process_turns_m_per_s).tanh()).matrix();
   add_line(track, q, force_N);
-  add(sum.guide_N, force_N.cwiseProduct(covered(cut, track.size, track.sample_s)));
+  add(sum.guide_N, force_N.cwiseProduct(covered(cuts, track.size, track.sample_s)));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -42,15 +42,14 @@ std::vector<WorkingParameter> parameters() {
   auto all = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 110.0});
   all.push_back({"mean_N", Kind::amplitude, 0.1});
   all.push_back({"opposing_N", Kind::amplitude, 0.1, 0.0, 1e5});
-  for (const char* name : {"start_0_s", "end_0_s", "start_1_s", "end_1_s", "start_2_s", "end_2_s", "start_3_s", "end_3_s"})
-    all.push_back({name, Kind::fixed});
+  all.resize(first_window + window_parameters, {"edge_of_a_cut_s", Kind::fixed});
   return all;
 }
 
 /// In the whole of every run; the screen adds windows to the strongest.
 Grid shapes() {
   Grid grid = frequencies(40.0, 100.0);
-  for (auto& shape : grid) shape.resize(1 + 2 * line_runs, 0.0);
+  for (auto& shape : grid) shape.resize(1 + window_parameters, 0.0);
   return grid;
 }
 
