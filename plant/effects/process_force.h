@@ -4,7 +4,8 @@
 //   F = F_0 + R tanh(v / 0.5 mm/s) + A sin(2 pi f t + phase)   from start to end, otherwise none
 //
 // F_0 = mean_N, R = opposing_N, A = amplitude_N, f = frequency_Hz, t since the run began; start_s and end_s: the tool is in
-// the cut. A sub-step that is in it for a part has that part of its mean.
+// the cut. It comes into it and leaves it over ramp_s, in proportion, half of that before and half after; at once where
+// that is none: a sub-step that is in the cut for a part then has that part of its mean.
 
 #include <algorithm>
 #include <array>
@@ -25,6 +26,7 @@ class ProcessForce final : public Effect {
         start_s_(setting.values[4]),
         end_s_(setting.values[5]),
         opposing_N_(setting.values[6]),
+        ramp_s_(setting.values[7]),
         teeth_(setting.values[1], setting.values[2], setting.values[3]) {}
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
     const double share = share_in_cut(m);
@@ -40,11 +42,15 @@ class ProcessForce final : public Effect {
   /// Of the sub-step. One that is in it whole is told so: after days the difference of two times is no measure of an
   /// instant.
   [[nodiscard]] double share_in_cut(const EffectMotion& m) const noexcept {
+    if (ramp_s_ > 0.0) {
+      const double middle_s = m.time_s + 0.5 * m.h_s;
+      return std::clamp(std::min(middle_s - start_s_, end_s_ - middle_s) / ramp_s_ + 0.5, 0.0, 1.0);
+    }
     const double from_s = std::max(start_s_ - m.time_s, 0.0), to_s = std::min(end_s_ - m.time_s, m.h_s);
     return from_s == 0.0 && to_s == m.h_s ? 1.0 : std::max(0.0, (to_s - from_s) / m.h_s);
   }
 
-  double mean_N_, start_s_, end_s_, opposing_N_;
+  double mean_N_, start_s_, end_s_, opposing_N_, ramp_s_;
   TimeWave teeth_;
 };
 
@@ -58,6 +64,7 @@ inline constexpr std::array process_force_parameters{
     EffectParameter{"start_s", "s", 0.0, 1e9, 0.0, {}, "the tool comes into the cut, since the run began"},
     EffectParameter{"end_s", "s", 0.0, 1e9, 1e9, {}, "it leaves the cut"},
     EffectParameter{"opposing_N", "N", 0.0, 100000.0, 0.0, 0.0, "mean force against the motion, whichever way it goes"},
+    EffectParameter{"ramp_s", "s", 0.0, 10.0, 0.0, {}, "over what the tool comes into the cut and leaves it"},
 };
 // clang-format on
 

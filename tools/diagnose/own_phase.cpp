@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "tools/diagnose/edges.h"
 #include "tools/diagnose/hypotheses/shapes.h"
-#include "tools/diagnose/windows.h"
 #include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -61,8 +61,9 @@ void take_states(const InverseModel& unseen, const Whitening& whitening, Candida
 void take_windows(const InverseModel& unseen, const Whitening& whitening, Candidate& model, std::size_t effect) {
   const Vector left = unseen.residual(model.axis, without(model, effect).effects);
   auto& own = model.effects[effect];
-  set_windows(own.hypothesis->first_window, own.q,
-              windows_of_line(unseen, whitening.applied(unseen, left), rate_of_line(own.q)));
+  const double frequency_Hz = rate_of_line(own.q);
+  auto windows = windows_of_line(unseen, whitening.applied(unseen, left), frequency_Hz);
+  set_windows(own.hypothesis->first_window, own.q, sharpened(unseen, left, frequency_Hz, std::move(windows)).windows);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "tools/diagnose/asking.h"
-#include "tools/diagnose/windows.h"
+#include "tools/diagnose/edges.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -43,21 +43,25 @@ double strongest_near(const InverseModel& model, const Vector& white, double fre
   return best.second;
 }
 
-/// Of the strongest lines those that act in parts of the runs, as shapes of their own: frequency, then the parts by run.
-void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& white) {
+/// Of the strongest lines those that act in parts of the runs, as shapes of their own: frequency, ramp, the parts by run.
+void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& white, const Fit& fit) {
   constexpr std::size_t strongest = 3;
   for (std::size_t i = 0; i < std::min(strongest, kept.size()); ++i) {
+    const double frequency_Hz = strongest_near(model, white, kept[i][0]);
+    auto windows = windows_of_line(model, white, frequency_Hz);
+    if (std::ranges::all_of(windows, &Windows::empty)) continue;
+    const Vector residual = model.residual(fit.model.axis, fit.model.effects);
+    const Cuts cuts = sharpened(model, residual, frequency_Hz, std::move(windows));
     std::vector<double> shape = kept[i];
-    const double frequency_Hz = strongest_near(model, white, shape[0]);
-    set_windows(1, shape, windows_of_line(model, white, frequency_Hz));
-    if (shape == kept[i]) continue;
-    shape[0] = frequency_Hz;
+    shape[0] = frequency_Hz, shape[1] = cuts.ramp_s;
+    set_windows(2, shape, cuts.windows);
     kept.push_back(std::move(shape));  // last: the others meet the same chance with it or without
   }
 }
 
 /// The shapes that are worth asking about: of frequencies the strongest lines, some others for what chance does.
-std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const InverseModel& model, const Vector& white) {
+std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const InverseModel& model, const Vector& white,
+                                         const Fit& fit) {
   auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks()) : hypothesis.shapes;
   if (hypothesis.where != Where::frequency) return grid;
   constexpr std::size_t strongest = 12, spread = 12;
@@ -67,7 +71,7 @@ std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const Inv
   std::vector<std::vector<double>> kept;
   for (std::size_t i = 0; i < std::min(strongest, lines.size()); ++i) kept.push_back(grid[lines[i].second]);
   for (std::size_t i = 0; i < grid.size(); i += 1 + grid.size() / spread) kept.push_back(grid[i]);
-  if (hypothesis.first_window > 0) add_windows(kept, model, white);
+  if (hypothesis.first_window > 0) add_windows(kept, model, white, fit);
   return kept;
 }
 
@@ -168,7 +172,7 @@ Screen screen(const std::vector<const Hypothesis*>& asked, bool against_chance, 
               const Whitening& whitening) {
   const Asking asking(fitter, fit, whitening);
   std::vector<std::vector<std::vector<double>>> grids;
-  for (const auto* hypothesis : asked) grids.push_back(grid_of(*hypothesis, fitter.model(), asking.left()));
+  for (const auto* hypothesis : asked) grids.push_back(grid_of(*hypothesis, fitter.model(), asking.left(), fit));
   const auto tasks = tasks_of(asked, against_chance, fit, grids);
   std::vector<Score> found(tasks.size());
   Eigen::MatrixXd gains = Eigen::MatrixXd::Zero(static_cast<Index>(tasks.size()), surrogates);

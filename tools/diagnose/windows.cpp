@@ -161,13 +161,13 @@ Windows windows_in(const InverseModel& model, const Vector& white, std::size_t r
 
 }  // namespace
 
-Vector covered(std::span<const Window> windows, Index samples, double sample_s) {
+Vector covered(std::span<const Window> windows, double ramp_s, Index samples, double sample_s) {
   Vector share = Vector::Zero(samples);
+  const double over_s = std::max(ramp_s, sample_s);
   for (const Window& window : windows)
     for (Index k = 0; k < samples; ++k) {
-      const double middle = static_cast<double>(k) * sample_s, from = std::max(middle - 0.5 * sample_s, window.start_s),
-                   to = std::min(middle + 0.5 * sample_s, window.end_s);
-      share[k] += std::max(0.0, to - from) / sample_s;
+      const double now_s = static_cast<double>(k) * sample_s;
+      share[k] += std::clamp(std::min(now_s - window.start_s, window.end_s - now_s) / over_s + 0.5, 0.0, 1.0);
     }
   return share;
 }

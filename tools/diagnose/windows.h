@@ -23,8 +23,8 @@ inline constexpr std::size_t most_windows = 8;
 /// Working parameters that all of them take: start and end of each, run by run.
 inline constexpr std::size_t window_parameters = line_runs * most_windows * 2;
 
-/// Their part of the time about each sample of a run.
-[[nodiscard]] Vector covered(std::span<const Window> windows, Index samples, double sample_s);
+/// Their part of the time about each sample of a run; over a ramp in proportion, half of it before each edge.
+[[nodiscard]] Vector covered(std::span<const Window> windows, double ramp_s, Index samples, double sample_s);
 
 /// Where in each run a line acts: the parts that together hold it, by more than its having no end would and than each of
 /// their edges costs; otherwise all of a run.

@@ -97,7 +97,7 @@ TEST(Dynamics, CoggingAndCableSpring) {
 
 TEST(Dynamics, QuadraticDragAndProcessForce) {
   FeedAxis axis =
-      axis_with({{"quadratic_drag", {3000.0}, {}}, {"process_force", {20.0, 30.0, 70.0, 0.3, 0.05, 0.32, 12.0}, {}}});
+      axis_with({{"quadratic_drag", {3000.0}, {}}, {"process_force", {20.0, 30.0, 70.0, 0.3, 0.05, 0.32, 12.0, 0.04}, {}}});
   const auto load = [](double t, double, double v) {
     const bool in_cut = t > 0.05 && t < 0.32;
     return 3000.0 * v * std::abs(v) +

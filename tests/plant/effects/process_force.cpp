@@ -13,7 +13,7 @@ namespace {
 TEST(ProcessForce, CutsFromItsStartToItsEnd) {
   constexpr double start_s = 1e6 + 0.25e-3, end_s = 2e6;
   const effects::ProcessForce process({test::smooth_axis(), make_axis_model(test::smooth_axis())},
-                                      {"process_force", {20.0, 0.0, 70.0, 0.0, start_s, end_s, 12.0}, {}});
+                                      {"process_force", {20.0, 0.0, 70.0, 0.0, start_s, end_s, 12.0, 0.0}, {}});
   const auto load_N = [&](double time_s, double h_s) {
     return process
         .load({.position_m = 0.0,

@@ -124,9 +124,15 @@ TEST(Windows, AreNoneWhereTheProcessNeverStops) {
   for (const auto& of_run : windows_of_line(made.model, white, frequency_Hz)) EXPECT_TRUE(of_run.empty());
 }
 
+TEST(Windows, ARampIsHalfBeforeEachEdge) {
+  const Vector share = covered(Windows{{0.004, 0.009}}, 0.004, 13, 1e-3);
+  const std::vector<double> expected{0.0, 0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.0, 0.75, 0.5, 0.25, 0.0, 0.0};
+  for (Index k = 0; k < share.size(); ++k) EXPECT_NEAR(share[k], expected[static_cast<std::size_t>(k)], 1e-9) << k;
+}
+
 TEST(Windows, AShareOfASampleIsCovered) {
-  const Vector share = covered(Windows{{0.0012, 0.0030}, {0.0036, 0.0044}}, 6, 1e-3);
-  const std::vector<double> expected{0.0, 0.3, 1.0, 0.5, 0.8, 0.0};
+  const Vector share = covered(Windows{{0.0012, 0.0030}, {0.0036, 0.0046}}, 0.0, 6, 1e-3);
+  const std::vector<double> expected{0.0, 0.3, 1.0, 0.5, 0.9, 0.1};
   for (Index k = 0; k < share.size(); ++k) EXPECT_NEAR(share[k], expected[static_cast<std::size_t>(k)], 1e-9) << k;
 }
 

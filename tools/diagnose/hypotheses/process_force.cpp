@@ -12,7 +12,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::size_t mean = 2 * line_runs + 1, opposing = mean + 1, first_window = opposing + 1;
+constexpr std::size_t mean = 2 * line_runs + 1, opposing = mean + 1, ramp = opposing + 1, first_window = ramp + 1;
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
@@ -21,7 +21,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   Vector force_N =
       (q[mean] + q[opposing] * (track.centred_m_per_s.array() / plant::effects::process_turns_m_per_s).tanh()).matrix();
   add_line(track, q, force_N);
-  add(sum.guide_N, force_N.cwiseProduct(covered(cuts, track.size, track.sample_s)));
+  add(sum.guide_N, force_N.cwiseProduct(covered(cuts, q[ramp], track.size, track.sample_s)));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -29,6 +29,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   if (windowed(first_window, q)) {
     values.push_back({"mean_N", q[mean]});
     values.push_back({"opposing_N", q[opposing]});
+    values.push_back({"ramp_s", q[ramp]});
   }
   return values;
 }
@@ -42,6 +43,7 @@ std::vector<WorkingParameter> parameters() {
   auto all = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 110.0});
   all.push_back({"mean_N", Kind::amplitude, 0.1});
   all.push_back({"opposing_N", Kind::amplitude, 0.1, 0.0, 1e5});
+  all.push_back({"ramp_s", Kind::fixed});
   all.resize(first_window + window_parameters, {"edge_of_a_cut_s", Kind::fixed});
   return all;
 }
@@ -49,7 +51,7 @@ std::vector<WorkingParameter> parameters() {
 /// In the whole of every run; the screen adds windows to the strongest.
 Grid shapes() {
   Grid grid = frequencies(40.0, 100.0);
-  for (auto& shape : grid) shape.resize(1 + window_parameters, 0.0);
+  for (auto& shape : grid) shape.resize(2 + window_parameters, 0.0);
   return grid;
 }
 
