@@ -5,6 +5,9 @@
 //
 // T_c = torque_Nm, v_0 = speed_m_per_s, v the velocity that the drive is told to reach, as drives compensate: what follows
 // the measured one feeds itself at rest. Where the drive is told a torque alone v is the axis's, at the start of the tick.
+// What replays a recording (tools/identify/closed_loop.h) sets v from the recorded reference, or where there is none, or
+// of_motion says so, from the recorded motion; ahead of that by lead_s, as x + T dx/dt is of a position loop without
+// feed-forward. Here v is a set point already.
 
 #include <array>
 #include <cmath>
@@ -30,6 +33,8 @@ class HiddenFrictionCompensation final : public Effect {
 inline constexpr std::array hidden_friction_compensation_parameters{
     EffectParameter{"torque_Nm", "N m", -10.0, 10.0, {}, 0.0, "added while moving forth; negative: friction looks larger"},
     EffectParameter{"speed_m_per_s", "m/s", 1e-05, 1.0, 0.001, {}, "speed at which 76 % of it is added"},
+    EffectParameter{"lead_s", "s", -0.1, 0.2, 0.0, {}, "how far a recording's set point ran ahead of what it shows of it"},
+    EffectParameter{"of_motion", "1", 0.0, 1.0, 0.0, {}, "1: of a recording the motion tells v, whatever reference it has"},
 };
 // clang-format on
 

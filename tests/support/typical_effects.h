@@ -30,7 +30,7 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"frictional_lag_of_velocity", {8e-3}},
       {"gravity", {30.0}},
       {"hard_stop", {2e-3, 1.0, 1e7, 1e4}},
-      {"hidden_friction_compensation", {0.03, 1e-3}},
+      {"hidden_friction_compensation", {0.03, 1e-3, 0.0, 0.0}},
       {"input_delay", {1.4e-3}},
       {"lead_error", {2e-4}},
       {"learned_mode", {4.0, 8.0, 0.03}},

@@ -180,6 +180,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
     track.table_path_m_per_s = path_velocities(smoothed(without_flicker(table, count_m)), h);
   }
   follow_reversals(track);
+  track.setpoints = setpoints_of(recording, count_m);
 
   // A sensor reads at its instant and the balance is the triangular mean about it.
   const std::array<double, 3> triangle{1.0 / 12.0, 10.0 / 12.0, 1.0 / 12.0};

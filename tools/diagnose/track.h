@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "plant/parameters.h"
+#include "tools/identify/setpoint.h"
 #include "tools/identify/sliding.h"
 #include "tools/recording/recording.h"
 
@@ -42,6 +43,7 @@ struct Track {
   Vector position_m;        ///< lightly smoothed
   Vector velocity_m_per_s;  ///< mean over the sample that follows
   Vector centred_m_per_s;   ///< velocity at the sample
+  Setpoints setpoints;      ///< what the drive was told to reach
   Vector steady_m_per_s;    ///< velocity_m_per_s, none where only the encoder's grid moves
   Vector motor_direction;   ///< tanh(velocity / standstill): how much of the motor's Coulomb friction acts, and which way
   Vector acceleration_m_per_s2;

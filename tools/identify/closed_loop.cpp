@@ -22,21 +22,6 @@ double start_velocity(std::span<const double> position_m, const plant::AxisParam
   return moves && slope_m * first_m > 0.0 ? slope_m / tick_s : 0.0;
 }
 
-/// From the rows before and after; over some more where that is no more than the encoder's grid, which must not move a drive
-/// at rest.
-std::vector<double> velocity_of(std::span<const double> position_m, double count_m, double tick_s) {
-  constexpr std::size_t near = 1, far = 5;
-  std::vector<double> all(position_m.size());
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (const std::size_t beside : {near, far}) {
-      const std::size_t from = i < beside ? 0 : i - beside, to = std::min(i + beside, all.size() - 1);
-      const double moved_m = position_m[to] - position_m[from];
-      all[i] = moved_m / (static_cast<double>(to - from) * tick_s);
-      if (std::abs(moved_m) > 1.5 * count_m) break;
-    }
-  return all;
-}
-
 using Terms = ElectricalTerms::Terms;
 
 Terms terms_at(double v) {
@@ -92,17 +77,12 @@ plant::AxisParameters without_stops(plant::AxisParameters parameters) {
 ClosedLoopRun::ClosedLoopRun(const Recording& recording, const plant::AxisParameters& nominal,
                              const std::optional<controllers::CascadeGains>& controller, const StandInSettings& stand_in)
     : recording_(&recording),
+      setpoints_(setpoints_of(recording, nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev)),
       motor_slides_(rows_of_surely_sliding(recording.at(channel::position_m), recording.sample_s)),
       view_{},
       nominal_(nominal) {
   const auto position_m = recording.at(channel::position_m);
-  if (controller) {
-    reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
-    for (const auto& reference : reference_) setpoint_m_per_s_.push_back(reference.velocity_m_per_s);
-  } else {
-    const double count_m = nominal.axis.lead_m / nominal.axis.encoder_counts_per_rev;
-    setpoint_m_per_s_ = velocity_of(position_m, count_m, recording.sample_s);
-  }
+  if (controller) reference_ = with_derivatives(recording.at(channel::reference_m), recording.sample_s);
   view_ = {.samples = recording.size(),
            .tick_s = recording.sample_s,
            .torque_Nm = recording.at(channel::torque_cmd_Nm).data(),
@@ -135,6 +115,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
   for (auto* channel : {&out.torque_sensor_Nm, &out.force_sensor_N}) channel->resize(sensors ? view.samples : 0);
   const Terms coefficients = coefficients_of(axis.parameters().motor);
   const bool of_command = run.recording().meter.of_command;
+  const auto setpoint_m_per_s = run.setpoint_m_per_s(axis.parameters());
   for (std::size_t i = 0; i < view.samples; ++i) {
     const double shown_m = axis.shown_position_m() - position_offset_m;
     out.position_m[i] = shown_m;
@@ -142,7 +123,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
     out.torque_Nm[i] = view.reference != nullptr
                            ? cascade.torque_Nm(view.reference[i], shown_m, view.tick_s)
                            : view.torque_Nm[i] + stand_in.correction_N(view.position_m[i] - shown_m) / transmission;
-    const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i], .setpoint_m_per_s = run.setpoint_m_per_s()[i]};
+    const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i], .setpoint_m_per_s = setpoint_m_per_s[i]};
     if (sensors) {
       const auto forces = axis.force_sensors(command);
       out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;

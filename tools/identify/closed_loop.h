@@ -13,6 +13,7 @@
 #include "controllers/reference.h"
 #include "plant/feed_axis.h"
 #include "tools/identify/lanes/dispatch.h"
+#include "tools/identify/setpoint.h"
 #include "tools/recording/case.h"
 #include "tools/recording/power_meter.h"
 
@@ -32,15 +33,17 @@ class ClosedLoopRun {
   [[nodiscard]] lanes::RecordView view() const noexcept;
   [[nodiscard]] const plant::AxisParameters& nominal() const noexcept { return nominal_; }
   [[nodiscard]] bool has_controller() const noexcept { return !reference_.empty(); }
-  /// Row by row what the drive was told to reach: the reference's velocity, or in its place that of the recorded motion.
-  [[nodiscard]] std::span<const double> setpoint_m_per_s() const noexcept { return setpoint_m_per_s_; }
+  /// Row by row what the drive was told to reach, as its axis has it.
+  [[nodiscard]] std::vector<double> setpoint_m_per_s(const plant::AxisParameters& axis) const {
+    return setpoints_.m_per_s(setpoint_source(axis));
+  }
   /// Row by row: has the motor's Coulomb friction fully set in? Asked by what reads a torque sensor.
   [[nodiscard]] const std::vector<bool>& motor_slides() const noexcept { return motor_slides_; }
 
  private:
   const Recording* recording_;
   std::vector<controllers::Reference> reference_;
-  std::vector<double> setpoint_m_per_s_;
+  Setpoints setpoints_;
   std::vector<bool> motor_slides_;
   lanes::RecordView view_;
   plant::AxisParameters nominal_;

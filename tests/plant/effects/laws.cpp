@@ -108,7 +108,7 @@ TEST(Laws, ForceAtSteadySpeed) {
        [](const Nominal& n, double, const Steady& s) { return n.all_N() + 200.0 * (s.position_m - 0.3); }},
       {{"torque_offset", {0.02}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N() - 0.02 * rad_per_m; }},
       {{"torque_gain_error", {0.1}, {}}, [](const Nominal& n, double, const Steady&) { return n.all_N() / 1.1; }},
-      {{"hidden_friction_compensation", {0.03, 1e-3}, {}},
+      {{"hidden_friction_compensation", {0.03, 1e-3, 0.0, 0.0}, {}},
        [](const Nominal& n, double v, const Steady&) { return n.all_N() - 0.03 * rad_per_m * std::tanh(v / 1e-3); }},
       {{"presliding_memory", {25.0, 1e-5}, {}},
        [](const Nominal& n, double v, const Steady&) { return n.all_N() + (v > 0.0 ? 25.0 : -25.0); }},
@@ -162,7 +162,7 @@ TEST(Laws, BreakawayRisesWithDwell) {
 
 TEST(Laws, HiddenCompensationFollowsWhatTheDriveIsToldToReach) {
   AxisParameters p = source_axis();
-  p.effects = {{"hidden_friction_compensation", {0.03, 1e-3}, {}}};
+  p.effects = {{"hidden_friction_compensation", {0.03, 1e-3, 0.0, 0.0}, {}}};
   for (const double setpoint : {-0.05, -5e-4, 0.0, 2e-3}) {
     FeedAxis axis(p);
     EXPECT_NEAR(axis.step({.setpoint_m_per_s = setpoint}, tick_s).torque_Nm, 0.03 * std::tanh(setpoint / 1e-3), 1e-12);

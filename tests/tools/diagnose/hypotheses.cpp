@@ -70,9 +70,8 @@ const std::map<std::string_view, Trial>& trials() {
       {"channel_skew", {{{"torque_sensor_delay_s", 3e-3}, {"force_sensor_delay_s", 2e-3}}, {0, 0}}},
       {"torque_saturation", {{{"limit_Nm", 0.7}}, {0, 0.68}}},
       {"floor_vibration", {{{"acceleration_m_per_s2", 2.0}, {"frequency_Hz", 17.03}}, {0, 0, 0, 0, 0, 0, 0, 0, 17.0}}},
-      {"hidden_friction_compensation", {{{"torque_Nm", 0.02}, {"speed_m_per_s", 1e-3}}, {0, 1e-3}, 0.06, true, true}},
-      {"process_force",
-       {{{"amplitude_N", 8.0}, {"frequency_Hz", 60.04}}, {0, 0, 0, 0, 0, 0, 0, 0, 60.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}},
+      {"hidden_friction_compensation", {{{"torque_Nm", 0.02}, {"speed_m_per_s", 1e-3}}, {0, 1e-3, 0, 1}, 0.06, true, true}},
+      {"process_force", {{{"amplitude_N", 8.0}, {"frequency_Hz", 60.04}}, {0, 0, 0, 0, 0, 0, 0, 0, 60.0}}},
       {"hard_stop",
        {{{"position_m", 0.0194}, {"direction", 1.0}, {"stiffness_N_per_m", 3e5}, {"damping_Ns_per_m", 2000.0}},
         {0, 0, 0.0193, 1}}},
@@ -153,7 +152,7 @@ Candidate fit_alone(const InverseModel& model, const Whitening& whitening, Candi
 TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
   ASSERT_TRUE(trials().contains(GetParam())) << "no trial of this hypothesis";
   const Trial& trial = trials().at(GetParam());
-  ASSERT_EQ(trial.start.size(), hypothesis(GetParam()).parameters.size());
+  ASSERT_LE(trial.start.size(), hypothesis(GetParam()).parameters.size());
   auto truth = plant::source_axis(), nominal = truth;
   truth.effects.push_back(setting_of(GetParam(), trial));
   if (!trial.known_numbers) {
@@ -162,7 +161,8 @@ TEST_P(EveryHypothesis, ComesBackFromThePlantWithSignAndNumbers) {
   }
   const bool power = hypothesis(GetParam()).channel == "power_W";
   const InverseModel model(make_tracks(runs_of(truth, trial.sensors, power), nominal), nominal);
-  const Candidate start{nominal, {{&hypothesis(GetParam()), trial.start}}};
+  Candidate start{nominal, {{&hypothesis(GetParam()), trial.start}}};
+  start.effects[0].q.resize(hypothesis(GetParam()).parameters.size(), 0.0);  // of windows there are many: none
   const Whitening& whitening = whitening_of(trial.sensors, power);
   const Candidate fitted =
       trial.known_numbers ? fit_alone(model, whitening, start) : Fitter(model, nominal).fit(start, whitening, 10).model;

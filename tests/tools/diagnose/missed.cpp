@@ -57,6 +57,14 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereTheNumbersWouldBeFarOff) {
   EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), 190.0), 6000.0);
 }
 
+TEST(NatsToStay, ACompensationNeedsFewerWhereItSetsInFasterThanAReversal) {
+  Found one = found("hidden_friction_compensation");
+  one.effect.q = {0.01, 2.5e-3, 0.0, 1.0};
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4);
+  one.effect.q[1] = 4.5e-3;
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 1000.0);
+}
+
 TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {
   for (const double farther : {0.0, 129.0}) {
     EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), -10.0);

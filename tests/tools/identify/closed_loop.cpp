@@ -173,12 +173,9 @@ TEST(ClosedLoop, BeginsAsTheAxisDid) {
 }
 
 // A drive that compensates friction by its setpoint does so from when it is told to move, not from when the axis does: that
-// is stuck until then.
+// is stuck until then. Where its setpoint runs ahead of the recorded motion it does so earlier still.
 TEST(ClosedLoop, AHiddenCompensationActsFromWhenTheMotionIsTold) {
-  auto parameters = plant::source_axis();
-  parameters.effects.push_back(
-      tests::effect("hidden_friction_compensation", {{"torque_Nm", 0.08}, {"speed_m_per_s", 1e-3}}));
-  constexpr int rows = 200, told = 100;
+  constexpr int rows = 200, told = 100, ahead = 8;
   Recording recording;
   recording.sample_s = 1e-3;
   for (int k = 0; k < rows; ++k) {
@@ -186,11 +183,18 @@ TEST(ClosedLoop, AHiddenCompensationActsFromWhenTheMotionIsTold) {
     recording.channels[std::string(channel::position_m)].push_back(k < told ? 0.0 : 5e-5 * (k - told));
   }
   const ClosedLoopRun run(recording, plant::source_axis(), std::nullopt);
-  plant::FeedAxis axis(parameters);
-  const auto simulated = simulate_closed_loop(run, axis);
-  EXPECT_NEAR(simulated.torque_sensor_Nm[told - 10], 0.0, 1e-6);
-  EXPECT_LT(std::abs(simulated.position_m[told]), 1e-5) << "still stuck";
-  EXPECT_GT(simulated.torque_sensor_Nm[told], 0.01);
+  const auto simulated = [&](double lead_s) {
+    auto parameters = plant::source_axis();
+    parameters.effects.push_back(
+        tests::effect("hidden_friction_compensation", {{"torque_Nm", 0.08}, {"speed_m_per_s", 1e-3}, {"lead_s", lead_s}}));
+    plant::FeedAxis axis(parameters);
+    return simulate_closed_loop(run, axis);
+  };
+  const auto at_once = simulated(0.0), led = simulated(0.02);
+  EXPECT_NEAR(at_once.torque_sensor_Nm[told - ahead], 0.0, 1e-6);
+  EXPECT_LT(std::abs(at_once.position_m[told]), 1e-5) << "still stuck";
+  EXPECT_GT(at_once.torque_sensor_Nm[told], 0.01);
+  EXPECT_GT(led.torque_sensor_Nm[told - ahead], 0.01);
 }
 
 TEST(ClosedLoop, AnyNumberOfThreadsGivesTheSame) {
