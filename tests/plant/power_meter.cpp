@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -29,6 +32,20 @@ TEST(PowerMeter, ShowsTheMeanOfEachWindowFromItsEndOn) {
     }
   }
   EXPECT_NEAR(shown_J, energy_J, 1e-6) << "windows lose no energy";
+}
+
+TEST(PowerMeter, AWindowMaySpanSeveralReadings) {
+  PowerMeter meter(0.3, 0.1);
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> power(-100.0, 500.0);
+  std::vector<double> all;
+  for (int i = 0; i < 5000; ++i) {
+    all.push_back(power(random));
+    const double reading = meter.update(all.back(), 1e-3);
+    if (all.size() % 100 != 0) continue;
+    const auto span = std::min<std::ptrdiff_t>(300, std::ssize(all));  // what has passed by then
+    ASSERT_NEAR(reading, std::accumulate(all.end() - span, all.end(), 0.0) / static_cast<double>(span), 1e-9) << i;
+  }
 }
 
 TEST(PowerMeter, WindowsDoNotDriftWithTicksThatDoNotDivideThem) {

@@ -127,17 +127,22 @@ std::vector<SetupFault> mend_setup(Case& data) {
 }
 
 std::vector<SetupFault> check_meter(const Track& track, plant::AxisParameters& axis) {
-  const double shown_s = static_cast<double>(track.meter.length) * track.sample_s;
-  double& nominal_s = axis.power_meter_window_s;
-  if (!track.meter.held || std::abs(shown_s - nominal_s) < 1.5 * track.sample_s) return {};
-  const std::string sentence =
-      fmt::format("the power meter averages over {:.3g} s, not over {:.3g} s as configured.", shown_s, nominal_s);
-  nominal_s = shown_s;
-  return {{"power_meter_window",
-           "power",
-           std::string(channel::power_W),
-           sentence,
-           {{"window_s", shown_s, 0.5 * track.sample_s}}}};
+  const auto& meter = track.meter;
+  const double shown_s = static_cast<double>(meter.length) * track.sample_s,
+               every_s = meter.every < meter.length ? static_cast<double>(meter.every) * track.sample_s : 0.0;
+  double &nominal_s = axis.power_meter_window_s, &nominal_every_s = axis.power_meter_every_s;
+  const bool as_configured =
+      std::abs(shown_s - nominal_s) < 1.5 * track.sample_s && std::abs(every_s - nominal_every_s) < 1.5 * track.sample_s;
+  if (!meter.held || as_configured) return {};
+  std::string sentence =
+      fmt::format("the power meter averages over {:.3g} s, not over {:.3g} s as configured", shown_s, nominal_s);
+  sentence += every_s > 0.0 ? fmt::format("; it shows such a mean every {:.3g} s.", every_s) : ".";
+  nominal_s = shown_s, nominal_every_s = every_s;
+  const double half_a_sample_s = 0.5 * track.sample_s;
+  SetupFault fault{
+      "power_meter_window", "power", std::string(channel::power_W), sentence, {{"window_s", shown_s, half_a_sample_s}}};
+  if (every_s > 0.0) fault.parameters.push_back({"every_s", every_s, half_a_sample_s});
+  return {fault};
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -109,7 +109,8 @@ void follow_reversals(Track& track) {
 }
 
 /// A meter that holds its reading shows, from the end of a window on, the mean over that window.
-MeterWindows meter_windows(const Vector& power_W, double sample_s, Index delay) {
+MeterWindows meter_windows(const Vector& power_W, double sample_s, const MeterHabit& habit) {
+  const auto delay = static_cast<Index>(habit.delay), readings = static_cast<Index>(habit.readings_a_window);
   std::vector<Index> changes;
   for (Index k = 1; k < power_W.size(); ++k)
     if (power_W[k] != power_W[k - 1]) changes.push_back(k);
@@ -120,7 +121,7 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s, Index delay) 
   for (const auto& [length, count] : lengths)
     if (count > most) most = count, meter.length = length;
   if (meter.length < 2) {  // sampled with the rest: means of 25 ms
-    meter.length = std::max<Index>(1, std::lround(0.025 / sample_s));
+    meter.length = meter.every = std::max<Index>(1, std::lround(0.025 / sample_s));
     for (Index k = 0; k + meter.length <= power_W.size(); k += meter.length) {
       meter.starts.push_back(k);
       meter.power_W.push_back(power_W.segment(k, meter.length).mean());
@@ -129,9 +130,13 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s, Index delay) 
   }
   meter.held = true;
   const Index phase = changes.empty() ? 0 : changes.front() % meter.length;
-  for (Index k = phase; k + meter.length < power_W.size(); k += meter.length) {
-    meter.starts.push_back(k + 1 - delay);
-    meter.power_W.push_back(power_W[k + meter.length]);
+  const Index every = meter.every = meter.length;
+  meter.length *= readings;
+  for (Index k = phase; k + every < power_W.size(); k += every) {
+    const Index start = k + 1 - delay + every - meter.length;
+    if (start < 0) continue;
+    meter.starts.push_back(start);
+    meter.power_W.push_back(power_W[k + every]);
   }
   return meter;
 }
@@ -190,7 +195,7 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
     track.force_sensor_N = convolved(as_vector(recording.at(channel::force_sensor_N)), triangle);
   track.half_step_N = convolved(track.held_N, triangle) - track.command_N;
   if (recording.has(channel::power_W)) {
-    track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h, static_cast<Index>(recording.meter.delay));
+    track.meter = meter_windows(as_vector(recording.at(channel::power_W)), h, recording.meter);
     track.meter.of_command = recording.meter.of_command;
   }
   track.metered_m_per_s = Vector::Zero(n);

@@ -72,12 +72,13 @@ Explained explained(std::span<const Recording> recordings, MeterHabit habit, int
     if (!held) meter = in_blocks(power_W.size());
     const double rms_W = rms_of(power_W);
     meter.delay = held ? habit.delay : 0;
+    if (held) meter.window *= habit.readings_a_window;
     const auto velocity = [&](std::size_t k) {
       const std::size_t from = habit.instants ? k - 1 : k;
       return (position[k + 1] - position[from]) / (static_cast<double>(k + 1 - from) * recording.sample_s);
     };
     for (const std::size_t row : meter.rows) {
-      if (meter.first_tick(row) < 1 || row + 1 >= position.size()) continue;
+      if (row < meter.window + meter.delay || row + 1 >= position.size()) continue;
       Laws sum = Laws::Zero();
       for (std::size_t k = meter.first_tick(row); k < meter.first_tick(row) + meter.window; ++k)
         sum += laws_of(command[k], command[k - 1], velocity(k), rad_per_m);
@@ -116,12 +117,33 @@ double unlikely(std::span<const Recording> recordings, MeterHabit habit, int ask
   return least;
 }
 
+/// A meter may average for longer than from one reading to the next: not told where a window of one reading leaves less than
+/// a thousandth over.
+std::size_t readings_a_window(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
+  constexpr double clearly = 0.5, hardly_any = 1e-6;  // of the squares
+  constexpr std::size_t most = 10;
+  const auto by = [&](std::size_t readings) {
+    return explained(recordings, {.readings_a_window = readings}, laws, Errors::alike, axis);
+  };
+  const Explained alone = by(1);
+  if (alone.left <= hardly_any * alone.squares) return 1;
+  std::pair<double, std::size_t> best{clearly * alone.left, 1};
+  for (std::size_t readings = 2; readings <= most; ++readings) {
+    const Explained now = by(readings);
+    if (now.readings > 0.0) best = std::min(best, {now.left, readings});
+  }
+  return best.second;
+}
+
 MeterHabit habit_in_time(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
   constexpr double clearly = 0.6;  // of the squares; a lagging current loop alone makes 0.66 (practice case p08)
   // with a lag among the laws the practice cases, which are of instants, have 0.98 and more; where a ripple that is no law
   // yet hides the difference, means over time had 0.87
   constexpr double likely = 0.9;
-  constexpr MeterHabit instants{}, all_time{.delay = 0, .instants = false}, late{.delay = 1, .instants = false};
+  const std::size_t readings = readings_a_window(recordings, axis);
+  const MeterHabit instants{.readings_a_window = readings},
+      all_time{.delay = 0, .instants = false, .readings_a_window = readings},
+      late{.delay = 1, .instants = false, .readings_a_window = readings};
   for (const Errors errors : {Errors::of_readings, Errors::alike})
     for (const int asked : {own_laws, own_laws + 1})
       if (unexplained(recordings, late, asked, errors, axis) <
@@ -193,7 +215,7 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
   if (power_W.empty()) return {};
   const double window = std::round(axis.power_meter_window_s / recording.sample_s);
   MeteredPower meter = metered_rows(power_W, static_cast<std::size_t>(window));
-  if (meter.window > 1) meter.delay = recording.meter.delay;
+  if (meter.window > 1) meter.delay = recording.meter.delay, meter.window *= recording.meter.readings_a_window;
   std::erase_if(meter.rows, [&meter](std::size_t row) { return row + 1 < meter.window + meter.delay; });
   return meter;
 }

@@ -20,8 +20,8 @@ using DrivePowers = std::array<double, 8>;
 /// and every row where the power is not held.
 struct MeteredPower {
   std::vector<std::size_t> rows;
-  std::size_t window = 1;
-  std::size_t delay = 0;  ///< ticks between the window's last and the row: 0 or 1
+  std::size_t window = 1;  ///< ticks that a reading is the mean of; longer than between readings where windows overlap
+  std::size_t delay = 0;   ///< ticks between the window's last and the row: 0 or 1
 
   /// The first of the ticks that row shows the mean of; the last is `window` - 1 later.
   [[nodiscard]] std::size_t first_tick(std::size_t row) const { return row + 1 - window - delay; }

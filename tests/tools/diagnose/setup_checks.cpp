@@ -240,12 +240,26 @@ TEST(SetupChecks, AMetersWindowIsKnownToHalfASample) {
   auto axis = plant::source_axis();
   Track track;
   track.sample_s = 1e-3;
-  track.meter = {.length = 50, .held = true, .starts = {}, .power_W = {}};
+  track.meter = {.length = 50, .every = 50, .held = true, .starts = {}, .power_W = {}};
   const auto faults = check_meter(track, axis);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_NEAR(faults[0].parameters[0].value, 0.05, 1e-12);
   EXPECT_EQ(faults[0].parameters[0].half_width, 0.5e-3);
   EXPECT_NEAR(axis.power_meter_window_s, 0.05, 1e-12);
+  EXPECT_TRUE(check_meter(track, axis).empty()) << "mended";
+}
+
+TEST(SetupChecks, AMetersWindowsMayOverlap) {
+  auto axis = plant::source_axis();
+  Track track;
+  track.sample_s = 1e-3;
+  track.meter = {.length = 200, .every = 100, .held = true, .starts = {}, .power_W = {}};
+  const auto faults = check_meter(track, axis);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].id, "power_meter_window");
+  EXPECT_NEAR(axis.power_meter_window_s, 0.2, 1e-12);
+  EXPECT_NEAR(axis.power_meter_every_s, 0.1, 1e-12);
+  EXPECT_TRUE(check_meter(track, axis).empty()) << "mended";
 }
 
 }  // namespace
