@@ -189,9 +189,9 @@ class Search {
       if (has(fit_.model, *rival) || score.gain < 0.7 * own || last_.leaves_to(score) || ++tried > rivals_tried) continue;
       const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, refit_iterations);
       const Active& other = fit.model.effects.back();
-      if (!worth_naming(other, fit.model.axis) || !possible(other, fit.model.axis) ||
-          !judged(fitter_, fit, less, *rival, bar_).enough)
-        continue;
+      if (!worth_naming(other, fit.model.axis) || !possible(other, fit.model.axis)) continue;
+      const auto verdict = judged(fitter_, fit, less, *rival, bar_);
+      if (!verdict.enough || !may_be_missed_enough(other, verdict.gain)) continue;
       const double more = bar_.per_parameter *
                           (static_cast<double>(freedom(*rival)) - static_cast<double>(freedom(*found.effect.hypothesis)));
       const double worse = fit.cost + more - fit_.cost;

@@ -65,6 +65,16 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItSetsInFasterThanAReversal) {
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 1000.0);
 }
 
+// One that gained 150 about reversals took the place of a true copper loss, and went for want of 5850 nats.
+TEST(MayBeMissedEnough, IsAskedOfWhatWouldTakeAnothersPlace) {
+  Active compensation{&hypothesis("hidden_friction_compensation"), {0.004, 5e-4, 0.0, 1.0}};
+  EXPECT_FALSE(may_be_missed_enough(compensation, 150.0));
+  EXPECT_TRUE(may_be_missed_enough(compensation, 2000.0));
+  compensation.q[1] = 8e-3;
+  EXPECT_TRUE(may_be_missed_enough(compensation, 150.0));
+  EXPECT_TRUE(may_be_missed_enough({&hypothesis("cogging"), {}}, 30.0));
+}
+
 TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {
   for (const double farther : {0.0, 129.0}) {
     EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), -10.0);

@@ -11,7 +11,7 @@ namespace {
 
 enum Sensor { torque, force };
 
-constexpr double largest_error = 0.4;
+constexpr double largest_error = 0.8;
 
 bool about(std::span<const double> q, Sensor sensor) {
   return std::lround(q[2]) == sensor;
