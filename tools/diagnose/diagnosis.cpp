@@ -207,10 +207,12 @@ class Diagnosing {
   }
 
   void tell_what_is_unknown() {
-    const Learned learned = learn_remainder(model_, told_);
-    progress_(
-        fmt::format("a learned table would explain {:.0f} % of the {:.2g} N left over on runs that it was not learned from",
-                    100.0 * learned.share_unseen, learned.remainder_N));
+    Learned learned = learn_remainder(model_, told_);
+    if (!unknown_ && laws_of_speed_fall_short(result_.effects, learned)) {
+      unknown_ = true, told_ = only_what_the_force_does_not_show(result_, found_, told_);
+      learned = learn_remainder(model_, told_);
+    }
+    progress_(in_words(learned));
     if (!unknown_ && (!repeats(learned) || anything_missing(result_))) return;
     result_.verdict = "unknown";
     result_.suspects.clear();

@@ -1,7 +1,10 @@
 #include "tools/diagnose/learned.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "plant/effects/registry.h"
 #include "tools/diagnose/remainder.h"
@@ -130,7 +133,7 @@ std::pair<double, double> share_unseen(const std::vector<Fold>& folds, const Tab
   return {before > 0.0 ? 1.0 - after / before : -1.0, std::sqrt(before / std::max(1.0, count))};
 }
 
-/// Where the table's forces are more than half of the largest.
+/// Where the table's forces are more than half of the largest, up to half of the way to the next point.
 void tell_where(Learned& table, double speed_m_per_s) {
   std::vector<double> size;
   for (const double x : table.points)
@@ -140,8 +143,8 @@ void tell_where(Learned& table, double speed_m_per_s) {
   table.high = table.points.front();
   for (std::size_t i = 0; i < table.points.size(); ++i)
     if (size[i] > 0.5 * largest) {
-      table.low = std::min(table.low, table.points[i]);
-      table.high = std::max(table.high, table.points[i]);
+      table.low = std::min(table.low, std::midpoint(table.points[i > 0 ? i - 1 : i], table.points[i]));
+      table.high = std::max(table.high, std::midpoint(table.points[i], table.points[std::min(i + 1, size.size() - 1)]));
     }
 }
 
@@ -164,6 +167,11 @@ Learned learn_remainder(const InverseModel& model, const Candidate& at) {
   table.remainder_N = best.remainder_N;
   tell_where(table, rms(rows.velocity_m_per_s));
   return table;
+}
+
+std::string in_words(const Learned& learned) {
+  return fmt::format("a learned table would explain {:.0f} % of the {:.2g} N left over on runs that it was not learned from",
+                     100.0 * learned.share_unseen, learned.remainder_N);
 }
 
 void extend(plant::AxisParameters& axis, const Learned& learned) {

@@ -4,6 +4,7 @@
 // teaches nothing, and the held-out runs have no say.
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tools/diagnose/fit.h"
@@ -23,6 +24,8 @@ struct Learned {
 
 /// The axis that explains most of runs that it was not learned from; of a single run, of every other second.
 [[nodiscard]] Learned learn_remainder(const InverseModel& model, const Candidate& at);
+
+[[nodiscard]] std::string in_words(const Learned& learned);
 
 /// The plant's own term for it.
 void extend(plant::AxisParameters& axis, const Learned& learned);

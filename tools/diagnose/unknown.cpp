@@ -21,6 +21,9 @@ constexpr double smallest_remainder_N = 0.5;  // that makes a verdict, as any st
 // reversal they had 0.08, and 1 N: a bristle and a real contact differ there
 constexpr double lesser_share_unseen = 0.08, smallest_table_N = 0.5;
 
+// where a hump of drag over speed was told as two laws 0.24 and 1.5 N; of true pairs of such laws less than 0.1
+constexpr double least_share_beside_laws = 0.15;
+
 }  // namespace
 
 Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
@@ -38,6 +41,14 @@ bool repeats(const Learned& learned) {
   const double smallest_share = since_reversal ? smallest_share_since_reversal : smallest_share_unseen;
   return (learned.share_unseen > smallest_share && learned.remainder_N > smallest_remainder_N) ||
          (!since_reversal && learned.share_unseen > lesser_share_unseen && table_N > smallest_table_N);
+}
+
+bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learned& learned) {
+  const double table_N = std::sqrt(std::max(0.0, learned.share_unseen)) * learned.remainder_N;
+  const auto laws = std::ranges::count_if(
+      named, [](const NamedEffect& e) { return e.hypothesis->where == Where::velocity && rests_on_force(*e.hypothesis); });
+  return laws >= 2 && learned.axis == Where::velocity && learned.share_unseen > least_share_beside_laws &&
+         table_N > smallest_table_N;
 }
 
 void tell_what_rings(const Structure& left, Learned& told) {

@@ -14,6 +14,9 @@ namespace feedtwin::tools::diagnosis {
 /// Is it more than a table of use: a finding of its own?
 [[nodiscard]] bool repeats(const Learned& learned);
 
+/// Two laws of speed that together leave a table over speed are no law of it: a third is.
+[[nodiscard]] bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learned& learned);
+
 /// Where a part that rings is most of it, it acts at that part's frequency; no table holds that.
 void tell_what_rings(const Structure& left, Learned& told);
 

@@ -137,6 +137,24 @@ TEST(Repeats, ATableThatExplainsMuchOfItOrLessButAsLargeAForce) {
   EXPECT_TRUE(told(0.55, 0.6, Where::reversal));
 }
 
+TEST(Unknown, TwoLawsOfSpeedThatLeaveATableOverSpeedAreNoLawOfIt) {
+  const auto named = [](std::initializer_list<const char*> ids) {
+    std::vector<NamedEffect> all;
+    for (const char* id : ids) all.emplace_back().hypothesis = &hypothesis(id);
+    return all;
+  };
+  Learned table;
+  table.axis = Where::velocity, table.share_unseen = 0.24, table.remainder_N = 3.1;
+  const auto both = named({"sublinear_viscous", "quadratic_drag"});
+  EXPECT_TRUE(laws_of_speed_fall_short(both, table));
+  EXPECT_FALSE(laws_of_speed_fall_short(named({"sublinear_viscous"}), table));
+  EXPECT_FALSE(laws_of_speed_fall_short(named({"sublinear_viscous", "cogging"}), table));
+  table.share_unseen = 0.09;
+  EXPECT_FALSE(laws_of_speed_fall_short(both, table));
+  table.share_unseen = 0.24, table.axis = Where::position;
+  EXPECT_FALSE(laws_of_speed_fall_short(both, table));
+}
+
 TEST(Verdict, AGravityThatIsToldIsARecalibrationWhateverIsSuspected) {
   Diagnosis result;
   result.suspects.push_back({.hypothesis = &hypothesis("hard_stop"), .model = {}});
