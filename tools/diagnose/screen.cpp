@@ -46,10 +46,13 @@ double strongest_near(const InverseModel& model, const Vector& white, double fre
 /// Of the strongest lines those that act in parts of the runs, as shapes of their own: frequency, ramp, the parts by run.
 void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& white, const Fit& fit) {
   constexpr std::size_t strongest = 3;
+  // a process does not stop where the speed changes: two had 0 to 0.55 in their cuts, a real screw's ripple 0.81 and more
+  constexpr double most_at_steady_speed = 0.7;
   for (std::size_t i = 0; i < std::min(strongest, kept.size()); ++i) {
     const double frequency_Hz = strongest_near(model, white, kept[i][0]);
     auto windows = windows_of_line(model, white, frequency_Hz);
-    if (std::ranges::all_of(windows, &Windows::empty)) continue;
+    if (std::ranges::all_of(windows, &Windows::empty) || share_at_steady_speed(model, windows) > most_at_steady_speed)
+      continue;
     const Vector residual = model.residual(fit.model.axis, fit.model.effects);
     const Cuts cuts = sharpened(model, residual, frequency_Hz, std::move(windows));
     std::vector<double> shape = kept[i];

@@ -172,6 +172,24 @@ Vector covered(std::span<const Window> windows, double ramp_s, Index samples, do
   return share;
 }
 
+double share_at_steady_speed(const InverseModel& model, std::span<const Windows> windows) {
+  constexpr double about_s = 0.05, change = 0.03;
+  double steady = 0.0, all = 1e-300;
+  for (std::size_t run = 0; run < windows.size(); ++run) {
+    const Track& track = model.tracks()[run];
+    const Vector& v = track.centred_m_per_s;
+    const Index about = std::lround(about_s / track.sample_s);
+    for (const Window& window : windows[run])
+      for (Index k = std::max(about, static_cast<Index>(window.start_s / track.sample_s));
+           k < std::min(track.size - about, static_cast<Index>(window.end_s / track.sample_s)); ++k) {
+        if (std::abs(v[k]) < standstill_m_per_s) continue;
+        all += 1.0;
+        steady += std::abs(v[k + about] - v[k - about]) < change * std::abs(v[k]) ? 1.0 : 0.0;
+      }
+  }
+  return steady / all;
+}
+
 std::vector<Windows> windows_of_line(const InverseModel& model, const Vector& white, double frequency_Hz) {
   std::vector<Windows> windows;
   for (std::size_t run = 0; run < std::min(line_runs, model.tracks().size()); ++run)

@@ -148,7 +148,8 @@ TEST(Unknown, TwoLawsOfSpeedThatLeaveATableOverSpeedAreNoLawOfIt) {
   const auto both = named({"sublinear_viscous", "quadratic_drag"});
   EXPECT_TRUE(laws_of_speed_fall_short(both, table));
   EXPECT_FALSE(laws_of_speed_fall_short(named({"sublinear_viscous"}), table));
-  EXPECT_FALSE(laws_of_speed_fall_short(named({"sublinear_viscous", "cogging"}), table));
+  for (const char* other : {"cogging", "direction_dependent_friction"})
+    EXPECT_FALSE(laws_of_speed_fall_short(named({"sublinear_viscous", other}), table)) << other;
   table.share_unseen = 0.09;
   EXPECT_FALSE(laws_of_speed_fall_short(both, table));
   table.share_unseen = 0.24, table.axis = Where::position;

@@ -35,6 +35,7 @@ Hypothesis quadratic_drag() {
           .admissible = possible,
           .sentence = "a drag grows with the square of speed: {coefficient_Ns2_per_m2} N s^2/m^2",
 
+          .law_of_speed = true,
           .follows_any_law = true,
           .least_deviations = deviations_of_numbers,
           .confused_with = {"sublinear_viscous"},

@@ -42,7 +42,7 @@ Hypothesis sublinear_viscous() {
           .named = named,
           .admissible = possible,
           .sentence = "the screw's viscous friction grows as the speed to the power {exponent}",
-
+          .law_of_speed = true,
           .confused_with = {"quadratic_drag", "direction_dependent_friction"},
           .friction = false};
 }
