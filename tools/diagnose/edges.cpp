@@ -111,7 +111,8 @@ Cuts sharpened(const InverseModel& model, const Vector& residual, double frequen
     }
     if (sum < least) least = sum, cuts.ramp_s = ramp_s, moved_s = best_s;
   }
-  for (std::size_t i = 0; i < edges.size(); ++i) *edges[i].time_s += moved_s[i];
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (std::abs(moved_s[i]) < farthest_s - 0.5 * step_s) *edges[i].time_s += moved_s[i];
   return cuts;
 }
 

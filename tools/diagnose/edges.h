@@ -13,7 +13,8 @@ struct Cuts {
 };
 
 /// Each edge moved, by less than a line's envelope is wide, to where a step of the mean force and of the line explains most
-/// of the residual about it; the ramp is what explains most of all of them. An edge that nothing shows stays.
+/// of the residual about it; the ramp is what explains most of all of them. An edge that nothing shows stays, and so does
+/// one that would run away: friction turns round there, or holds the table.
 /// @param residual without what cuts
 [[nodiscard]] Cuts sharpened(const InverseModel& model, const Vector& residual, double frequency_Hz,
                              std::vector<Windows> windows);

@@ -51,7 +51,8 @@ void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& mod
   for (std::size_t i = 0; i < std::min(strongest, kept.size()); ++i) {
     const double frequency_Hz = strongest_near(model, white, kept[i][0]);
     auto windows = windows_of_line(model, white, frequency_Hz);
-    if (std::ranges::all_of(windows, &Windows::empty) || share_at_steady_speed(model, windows) > most_at_steady_speed)
+    if (std::ranges::all_of(windows, &Windows::empty) ||
+        share_at_steady_speed(model.tracks(), windows) > most_at_steady_speed)
       continue;
     const Vector residual = model.residual(fit.model.axis, fit.model.effects);
     const Cuts cuts = sharpened(model, residual, frequency_Hz, std::move(windows));

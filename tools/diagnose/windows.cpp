@@ -172,11 +172,11 @@ Vector covered(std::span<const Window> windows, double ramp_s, Index samples, do
   return share;
 }
 
-double share_at_steady_speed(const InverseModel& model, std::span<const Windows> windows) {
+double share_at_steady_speed(const std::vector<Track>& runs, std::span<const Windows> windows) {
   constexpr double about_s = 0.05, change = 0.03;
   double steady = 0.0, all = 1e-300;
   for (std::size_t run = 0; run < windows.size(); ++run) {
-    const Track& track = model.tracks()[run];
+    const Track& track = runs[run];
     const Vector& v = track.centred_m_per_s;
     const Index about = std::lround(about_s / track.sample_s);
     for (const Window& window : windows[run])

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/support/made_case.h"
+#include "tools/diagnose/edges.h"
 #include "tools/diagnose/fit.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/forward_model.h"
@@ -23,7 +24,7 @@ using namespace tools::diagnosis;
 
 constexpr double frequency_Hz = 71.0, amplitude_N = 6.0, mean_N = 3.0, opposing_N = 2.0;
 
-tools::Recording cut(const Windows& cuts, double phase_rad) {
+tools::Recording cut(const Windows& cuts, double phase_rad, double ramp_s = 0.0) {
   auto axis = plant::source_axis();
   for (const Window& in_cut : cuts)
     axis.effects.push_back(tests::effect("process_force", {{"mean_N", mean_N},
@@ -32,7 +33,8 @@ tools::Recording cut(const Windows& cuts, double phase_rad) {
                                                            {"frequency_Hz", frequency_Hz},
                                                            {"phase_rad", phase_rad},
                                                            {"start_s", in_cut.start_s},
-                                                           {"end_s", in_cut.end_s}}));
+                                                           {"end_s", in_cut.end_s},
+                                                           {"ramp_s", ramp_s}}));
   auto recording = tests::make_recording(axis, {.motion = "sine", .duration_s = 4.0});
   std::mt19937 random(7);
   std::normal_distribution<double> noise_N(0.0, 0.5);
@@ -122,6 +124,43 @@ TEST(Windows, AreNoneWhereTheProcessNeverStops) {
   const Fit fit = made.fitter.fit({made.nominal, {}}, made.whitening, 4);
   const Vector white = made.whitening.applied(made.model, made.model.residual(fit.model.axis, {}));
   for (const auto& of_run : windows_of_line(made.model, white, frequency_Hz)) EXPECT_TRUE(of_run.empty());
+}
+
+// Found by a line's envelope an edge is some hundredths of a second off; the force itself steps within a few samples.
+TEST(Windows, EdgesAreWhereTheForceStepsAndOverWhatItDoes) {
+  const Windows truth{{0.653, 1.104}, {1.802, 2.257}, {2.603, 3.107}}, rough{{0.693, 1.064}, {1.842, 2.297}, {2.563, 3.067}};
+  const auto nominal = plant::source_axis();
+  for (const double ramp_s : {0.0, 0.05}) {
+    const InverseModel model(make_tracks({cut(truth, 0.4, ramp_s)}, nominal), nominal);
+    const Cuts found = sharpened(model, model.residual(nominal, {}), frequency_Hz, {rough});
+    EXPECT_NEAR(found.ramp_s, ramp_s, 0.011);
+    ASSERT_EQ(found.windows[0].size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      EXPECT_NEAR(found.windows[0][i].start_s, truth[i].start_s, 0.007) << ramp_s;
+      EXPECT_NEAR(found.windows[0][i].end_s, truth[i].end_s, 0.007) << ramp_s;
+    }
+  }
+}
+
+TEST(Windows, AnEdgeThatNothingShowsStays) {
+  const auto nominal = plant::source_axis();
+  const InverseModel model(make_tracks({cut({}, 0.0)}, nominal), nominal);
+  const Windows rough{{0.693, 1.064}};
+  const Cuts found = sharpened(model, model.residual(nominal, {}), frequency_Hz, {rough});
+  EXPECT_EQ(found.windows[0][0].start_s, rough[0].start_s);
+  EXPECT_EQ(found.windows[0][0].end_s, rough[0].end_s);
+}
+
+TEST(Windows, WhatLiesInTheFlatsOfTrapeziaIsAtASteadySpeed) {
+  Track track;
+  track.sample_s = 1e-3, track.size = 4000;
+  track.centred_m_per_s = Vector::Constant(track.size, 0.1);
+  for (Index k = 1000; k < 2000; ++k) track.centred_m_per_s[k] = 0.1 - 2e-4 * static_cast<double>(k - 1000);  // turns round
+  track.centred_m_per_s.tail(2000).setConstant(-0.1);
+  const auto share = [&](const Windows& windows) { return share_at_steady_speed({track}, std::vector<Windows>{windows}); };
+  EXPECT_GT(share(Windows{{0.1, 0.9}, {2.1, 3.9}}), 0.99);
+  EXPECT_LT(share(Windows{{1.1, 1.9}}), 0.01);
+  EXPECT_NEAR(share(Windows{{0.5, 1.5}}), 0.5, 0.06);
 }
 
 TEST(Windows, ARampIsHalfBeforeEachEdge) {
