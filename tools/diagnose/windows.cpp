@@ -42,10 +42,11 @@ struct Line {
     std::vector<double> squares;
     for (const double off_Hz : {-beside_Hz, beside_Hz}) {
       const auto other = diagnosis::envelope(rows, radians_per_row + 2.0 * std::numbers::pi * off_Hz * row_s);
-      for (const auto& value : other) squares.push_back(std::norm(value));
+      for (Index k = 0; k < other.size(); ++k)
+        if (told[static_cast<std::size_t>(k)]) squares.push_back(std::norm(other[k]));
     }
-    return {diagnosis::envelope(rows, radians_per_row), median_of(std::move(squares)) / std::numbers::ln2 + 1e-300,
-            std::move(told)};
+    const double noise = squares.empty() ? 1.0 : median_of(std::move(squares)) / std::numbers::ln2 + 1e-300;
+    return {diagnosis::envelope(rows, radians_per_row), noise, std::move(told)};
   }
   [[nodiscard]] std::complex<double> mean(const std::vector<bool>& in_cut) const {
     std::complex<double> sum = 0.0;
@@ -99,7 +100,7 @@ std::vector<std::pair<Index, Index>> parts_of(const std::vector<bool>& in_cut) {
   return parts;
 }
 
-/// The line's phase over the run is its strongest second's: from there the parts are found and it is fitted to them, in
+/// The line's phase over the run is its strongest half second's: from there the parts are found and it is fitted to them, in
 /// turn.
 std::vector<bool> where_it_acts(const std::vector<Line>& lines, Index rows, Index strongest_rows) {
   constexpr int turns = 8;
