@@ -39,6 +39,11 @@ bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
   const double most = std::ranges::all_of(named, is_number) ? numbers_denied_ratio : denied_ratio;
   if (named.empty() || result.unknown || ratio < most) return false;
   if (farther_off(result.holdout_inverse) < borne_out_ratio) return false;
+  const auto is_plain = [&](const Suspect& one) {
+    const auto of = std::ranges::find(found.found, one.hypothesis, [](const Found& f) { return f.effect.hypothesis; });
+    return of != found.found.end() && of->error_ratio > beyond_denial_ratio;
+  };
+  if (ratio < much_farther_off && std::ranges::any_of(named, is_plain)) return false;
   result.denied_by_unseen = ratio;
   result.effects.clear();
   result.suspects = std::move(named);

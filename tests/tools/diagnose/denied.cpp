@@ -22,13 +22,15 @@ struct Told {
   bool taken_back;
 
   /// @param by_force how many times as far off the names leave the force along the recorded motion
-  explicit Told(double times, double by_force = 1.0) {
+  /// @param error_ratio how many times as far off the fitted runs are without them
+  explicit Told(double times, double by_force = 1.0, double error_ratio = 1.0) {
     const double amplitude_Nm = 0.01 * times;
     SearchResult found;
     found.recalibrated.model = cogged.nominal;
     Found one;
     one.effect.hypothesis = &hypothesis("cogging");
     one.p_false_alarm = 0.001;
+    one.error_ratio = error_ratio;
     found.found.push_back(one);
     plant::AxisParameters axis = cogged.data.axis;
     axis.effects.push_back(tests::effect("cogging", {{"amplitude_Nm", amplitude_Nm}, {"cycles_per_rev", 8.0}}));
@@ -53,6 +55,13 @@ TEST(Denied, ANameThatBringsUnseenRunsCloserStays) {
 TEST(Denied, NotByTheClosedLoopAloneWhereTheForceAlongTheMotionBearsTheNameOut) {
   EXPECT_FALSE(Told(30.0, 0.5 * borne_out_ratio).taken_back);
   EXPECT_TRUE(Told(30.0, 1.1 * borne_out_ratio).taken_back);
+}
+
+TEST(Denied, NotWhereTheFittedRunsAreUnthinkableWithoutIt) {
+  constexpr double somewhat = 2.4, much = 3.0;  // times the ripple: 1.37 and 1.95 times as far off
+  EXPECT_FALSE(Told(somewhat, 1.0, 1.1 * beyond_denial_ratio).taken_back);
+  EXPECT_TRUE(Told(somewhat, 1.0, 0.9 * beyond_denial_ratio).taken_back);
+  EXPECT_TRUE(Told(much, 1.0, 1.1 * beyond_denial_ratio).taken_back);
 }
 
 TEST(Denied, ANameThatLeavesThemMuchFartherOffIsTakenBackAndSaid) {

@@ -65,6 +65,11 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItSetsInFasterThanAReversal) {
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 1000.0);
 }
 
+TEST(NatsToStay, FrictionByTheLoadNeedsMoreThanADelayLeavesOver) {
+  EXPECT_GT(nats_to_stay(found("load_dependent_friction")), 64.0);
+  EXPECT_LT(nats_to_stay(found("load_dependent_friction")), 166.0);
+}
+
 // One that gained 150 about reversals took the place of a true copper loss, and went for want of 5850 nats.
 TEST(MayBeMissedEnough, IsAskedOfWhatWouldTakeAnothersPlace) {
   Active compensation{&hypothesis("hidden_friction_compensation"), {0.004, 5e-4, 0.0, 1.0}};
