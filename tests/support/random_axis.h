@@ -17,12 +17,17 @@ inline void make_admissible(plant::AxisParameters& p) {
   }
 }
 
+/// How often a meter shows its mean moves nothing, and is left as it is.
+inline bool is_drawn(const plant::ParameterEntry& entry) {
+  return entry.key != "power.meter_every_s";
+}
+
 /// Every number but the transmission's times a factor within [1 / spread, spread].
 inline plant::AxisParameters axis_near_source(std::mt19937_64& random, double spread) {
   std::uniform_real_distribution<double> exponent(-std::log(spread), std::log(spread));
   auto p = plant::source_axis();
   for (const auto& entry : plant::parameter_table()) {
-    if (!entry.key.starts_with("axis.")) entry.in(p) *= std::exp(exponent(random));
+    if (is_drawn(entry) && !entry.key.starts_with("axis.")) entry.in(p) *= std::exp(exponent(random));
   }
   make_admissible(p);
   return p;
@@ -32,6 +37,7 @@ inline plant::AxisParameters axis_near_source(std::mt19937_64& random, double sp
 inline plant::AxisParameters any_axis(std::mt19937_64& random) {
   plant::AxisParameters p;
   for (const auto& entry : plant::parameter_table()) {
+    if (!is_drawn(entry)) continue;
     const double lowest = std::max(entry.lowest, 1e-9);
     const double value = std::exp(std::uniform_real_distribution<double>(std::log(lowest), std::log(entry.highest))(random));
     const bool zero = entry.lowest <= 0.0 && std::bernoulli_distribution(0.2)(random);

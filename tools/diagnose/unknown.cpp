@@ -45,8 +45,7 @@ bool repeats(const Learned& learned) {
 
 bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learned& learned) {
   const double table_N = std::sqrt(std::max(0.0, learned.share_unseen)) * learned.remainder_N;
-  const auto laws = std::ranges::count_if(
-      named, [](const NamedEffect& e) { return e.hypothesis->where == Where::velocity && rests_on_force(*e.hypothesis); });
+  const auto laws = std::ranges::count_if(named, [](const NamedEffect& e) { return e.hypothesis->law_of_speed; });
   return laws >= 2 && learned.axis == Where::velocity && learned.share_unseen > least_share_beside_laws &&
          table_N > smallest_table_N;
 }
