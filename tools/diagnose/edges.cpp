@@ -11,7 +11,9 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double reach_s = 0.2, farthest_s = 0.08, step_s = 0.002;
+constexpr double reach_s = 0.2, step_s = 0.002;
+constexpr int farthest_steps = 40;
+constexpr double farthest_s = farthest_steps * step_s;
 constexpr double low_pass_s = 0.006;  // what the rows' low pass makes of a step
 constexpr Index least_rows = 30;
 constexpr std::array ramps_s{0.0, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1, 0.14};
@@ -53,8 +55,8 @@ struct Edge {
   /// Least misfit with that ramp, and where.
   [[nodiscard]] std::pair<double, double> best(double ramp_s, double frequency_Hz) const {
     std::pair<double, double> least{1e300, 0.0};
-    for (double at_s = -farthest_s; at_s < farthest_s + 0.5 * step_s; at_s += step_s)
-      least = std::min(least, {misfit(at_s, ramp_s, frequency_Hz), at_s});
+    for (int i = -farthest_steps; i <= farthest_steps; ++i)
+      least = std::min(least, {misfit(i * step_s, ramp_s, frequency_Hz), i * step_s});
     return least;
   }
 };

@@ -8,7 +8,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::size_t folds = 4;
+constexpr std::size_t power_folds = 4;
 constexpr double stretch_s = 0.73;  // no motion repeats in step with it
 constexpr Index least_rows_a_column = 5;
 
@@ -34,7 +34,7 @@ PowerStructure::PowerStructure(const InverseModel& model) {
       rows_.push_back(segment.start + i);
       means.push_back(all.middleRows(track.meter.starts[static_cast<std::size_t>(i)], track.meter.length).colwise().mean());
       const double t = static_cast<double>(model.sample_of(segment, i)) * track.sample_s;
-      folds_.push_back((static_cast<std::size_t>(t / stretch_s) + segment.run) % folds);
+      folds_.push_back((static_cast<std::size_t>(t / stretch_s) + segment.run) % power_folds);
     }
   }
   if (means.empty() || static_cast<Index>(means.size()) < least_rows_a_column * means.front().size()) {
@@ -51,7 +51,7 @@ Vector PowerStructure::part_of(const Vector& residual) const {
   if (rows_.empty()) return part;
   const Vector y = residual(rows_);
   Vector predicted(y.size());
-  for (std::size_t f = 0; f < folds; ++f) {
+  for (std::size_t f = 0; f < power_folds; ++f) {
     std::vector<Index> own, others;
     for (std::size_t i = 0; i < folds_.size(); ++i) (folds_[i] == f ? own : others).push_back(static_cast<Index>(i));
     const Eigen::MatrixXd seen = columns_(others, Eigen::all);

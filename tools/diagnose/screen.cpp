@@ -36,10 +36,13 @@ double line_power(const InverseModel& model, const Vector& white, double frequen
 
 /// Between the grid's frequencies: a phase that runs away within a run would end each cut.
 double strongest_near(const InverseModel& model, const Vector& white, double frequency_Hz) {
-  constexpr double reach_Hz = 0.1, step_Hz = 0.01;
+  constexpr int steps = 10;
+  constexpr double step_Hz = 0.01;
   std::pair<double, double> best{0.0, frequency_Hz};
-  for (double f = frequency_Hz - reach_Hz; f < frequency_Hz + reach_Hz; f += step_Hz)
-    best = std::max(best, {line_power(model, white, f), f});
+  for (int i = -steps; i <= steps; ++i) {
+    const double near_Hz = frequency_Hz + step_Hz * i;
+    best = std::max(best, {line_power(model, white, near_Hz), near_Hz});
+  }
   return best.second;
 }
 

@@ -12,8 +12,9 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr Index reach = 12, width = 2 * reach + 1;  // rows that an envelope's value is made of, by a Hann window: 0.1 s
-constexpr double rows_apart = width / 1.5;          // rows between values that know nothing of each other
+constexpr Index envelope_reach = 12,
+                envelope_rows = 2 * envelope_reach + 1;  // rows that an envelope's value is made of, by a Hann window: 0.1 s
+constexpr double rows_apart = envelope_rows / 1.5;       // rows between values that know nothing of each other
 // of the logarithm of the values in a run about four times as much, for each of two edges
 constexpr double window_costs = 36.0;
 constexpr Index least_rows = 25;  // a tenth of a second: less is no cut
@@ -22,12 +23,13 @@ constexpr Index least_rows = 25;  // a tenth of a second: less is no cut
 /// other mismatch they hold too.
 Eigen::VectorXcd envelope(const Vector& rows, double radians_per_row) {
   const auto hann = [](Index i) {
-    return (1.0 + std::cos(std::numbers::pi * static_cast<double>(i) / (reach + 1))) / (reach + 1);
+    return (1.0 + std::cos(std::numbers::pi * static_cast<double>(i) / (envelope_reach + 1))) / (envelope_reach + 1);
   };
   Eigen::VectorXcd moved(rows.size()), smooth = Eigen::VectorXcd::Zero(rows.size());
   for (Index k = 0; k < rows.size(); ++k) moved[k] = rows[k] * std::polar(1.0, radians_per_row * static_cast<double>(k));
   for (Index k = 0; k < rows.size(); ++k)
-    for (Index i = -std::min(reach, k); i <= std::min(reach, rows.size() - 1 - k); ++i) smooth[k] += hann(i) * moved[k + i];
+    for (Index i = -std::min(envelope_reach, k); i <= std::min(envelope_reach, rows.size() - 1 - k); ++i)
+      smooth[k] += hann(i) * moved[k + i];
   return smooth;
 }
 
@@ -133,7 +135,8 @@ std::vector<bool> rows_that_tell(const InverseModel& model, const Segment& s) {
   std::vector<bool> tell(static_cast<std::size_t>(s.size), true);
   for (Index k = 0; k < s.size; ++k)
     if (!model.settled(s.start + k))
-      std::fill(tell.begin() + std::max<Index>(0, k - reach), tell.begin() + std::min(s.size, k + reach + 1), false);
+      std::fill(tell.begin() + std::max<Index>(0, k - envelope_reach),
+                tell.begin() + std::min(s.size, k + envelope_reach + 1), false);
   return tell;
 }
 

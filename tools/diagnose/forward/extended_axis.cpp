@@ -1,6 +1,7 @@
 #include "tools/diagnose/forward/extended_axis.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "plant/effects/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
@@ -49,7 +50,7 @@ void set_parts_of(plant::AxisParameters& axis, const Active& active, const Windo
   const auto is_one = [&](const plant::EffectSetting& setting) { return setting.id == active.hypothesis->id; };
   const auto found = std::ranges::find_if(axis.effects, is_one);
   if (found == axis.effects.end()) return;
-  const plant::EffectSetting any = *found;
+  const plant::EffectSetting any = std::move(*found);
   axis.effects.erase(found);
   for (const Window& window : windows) {
     axis.effects.push_back(any);
