@@ -29,7 +29,7 @@ FeedAxis::FeedAxis(const AxisParameters& nominal, const AxisParameters& true_axi
       calm_resolution_(chain_ ? chain_->at_least_in_a_calm_tick(resolution) : resolution),
       encoder_(nominal.axis.lead_m, nominal.axis.encoder_counts_per_rev),
       true_encoder_(true_axis.axis.lead_m, true_axis.axis.encoder_counts_per_rev),
-      power_meter_(true_axis.power_meter_window_s, true_axis.power_meter_every_s) {
+      power_meter_(true_axis.power_meter_window_s, true_axis.power_meter_readings) {
   place(nominal.axis.stroke_centre_m);
 }
 

@@ -11,10 +11,12 @@ namespace feedtwin::plant {
 
 class PowerMeter {
  public:
-  /// @param every_s between readings: of windows that overlap, up to 64 at a time; 0: one window after the other
-  explicit PowerMeter(double window_s = 0.1, double every_s = 0.0) noexcept
-      : every_s_(every_s > 0.0 ? every_s : window_s),
-        parts_(std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(window_s / every_s_)), 1, most_parts)) {}
+  static constexpr double most_readings = 64.0;
+
+  /// @param readings that a window spans, 1 to 64, whole: one comes every window_s / readings
+  explicit PowerMeter(double window_s = 0.1, double readings = 1.0) noexcept
+      : parts_(static_cast<std::size_t>(std::clamp(std::round(readings), 1.0, most_readings))),
+        every_s_(window_s / static_cast<double>(parts_)) {}
 
   /// Mean power over one tick; returns what the meter shows at the tick's end. Wait-free.
   double update(double power_W, double tick_s) noexcept {
@@ -33,13 +35,13 @@ class PowerMeter {
   [[nodiscard]] double shown_W() const noexcept { return shown_W_; }
 
  private:
-  static constexpr std::size_t most_parts = 64;
   struct Part {
     double energy_J = 0.0, span_s = 0.0;
   };
+  std::size_t parts_;
   double every_s_;
-  std::size_t parts_, next_ = 0;
-  std::array<Part, most_parts> passed_{};
+  std::size_t next_ = 0;
+  std::array<Part, static_cast<std::size_t>(most_readings)> passed_{};
   double energy_J_ = 0.0;
   double elapsed_s_ = 0.0;
   double shown_W_ = 0.0;

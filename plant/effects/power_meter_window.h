@@ -1,10 +1,9 @@
 #pragma once
 // The power meter averages over another window than the nominal one.
 //
-//   reading = mean of P over each window_s, shown from the window's end on; every_s after the one before, where windows
-//   overlap, otherwise one after the other
+//   reading = mean of P over each window_s, shown from the window's end on; every window_s / readings
 //
-// Numbers of the axis (power.meter_window_s, power.meter_every_s), changed at set-up.
+// Numbers of the axis (power.meter_window_s, power.meter_readings), changed at set-up.
 
 #include <array>
 
@@ -14,14 +13,14 @@ namespace feedtwin::plant::effects {
 
 inline void power_meter_window_adapt(AxisParameters& axis, const EffectSetting& setting) {
   axis.power_meter_window_s = setting.values[0];
-  axis.power_meter_every_s = setting.values[1];
+  axis.power_meter_readings = setting.values[1];
 }
 
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array power_meter_window_parameters{
     EffectParameter{"window_s", "s", 0.001, 10.0, {}, 0.1, "length of a window"},
-    EffectParameter{"every_s", "s", 0.0, 10.0, 0.0, {}, "between readings, where windows overlap; 0: one after the other"},
+    EffectParameter{"readings", "1", 1.0, 64.0, 1.0, {}, "readings that a window spans: windows overlap where it is more than one"},
 };
 // clang-format on
 

@@ -35,7 +35,7 @@ TEST(PowerMeter, ShowsTheMeanOfEachWindowFromItsEndOn) {
 }
 
 TEST(PowerMeter, AWindowMaySpanSeveralReadings) {
-  PowerMeter meter(0.3, 0.1);
+  PowerMeter meter(0.3, 3.0);
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> power(-100.0, 500.0);
   std::vector<double> all;

@@ -17,9 +17,9 @@ inline void make_admissible(plant::AxisParameters& p) {
   }
 }
 
-/// How often a meter shows its mean moves nothing, and is left as it is.
+/// How many readings a meter's window spans moves nothing, and is left as it is.
 inline bool is_drawn(const plant::ParameterEntry& entry) {
-  return entry.key != "power.meter_every_s";
+  return entry.key != "power.meter_readings";
 }
 
 /// Every number but the transmission's times a factor within [1 / spread, spread].

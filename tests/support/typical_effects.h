@@ -40,7 +40,7 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"payload", {8.0}},
       {"position_friction", {0.5, 3000.0, -2500.0}},
       {"position_friction_wave", {0.3, 0.045, 0.7, 300.0, -0.4}},
-      {"power_meter_window", {0.05, 0.0}},
+      {"power_meter_window", {0.05, 1.0}},
       {"presliding_memory", {15.0, 1e-5}},
       {"process_force", {20.0, 10.0, 150.0, 0.0, 0.05, 1e9, 5.0, 0.02}},
       {"quadratic_drag", {800.0}},

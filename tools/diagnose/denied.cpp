@@ -9,14 +9,17 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
+bool is_named(const Diagnosis& result, const Found& one) {
+  return std::ranges::find(result.effects, one.effect.hypothesis, &NamedEffect::hypothesis) != result.effects.end();
+}
+
 std::vector<Suspect> named_of(const Diagnosis& result, const SearchResult& found) {
   std::vector<Suspect> named;
   for (const auto& one : found.found) {
-    const auto* hypothesis = one.effect.hypothesis;
-    if (std::ranges::find(result.effects, hypothesis, &NamedEffect::hypothesis) == result.effects.end()) continue;
+    if (!is_named(result, one)) continue;
     Candidate with = found.recalibrated.model;
     with.effects.push_back(one.effect);
-    named.push_back({hypothesis, std::move(with), one.strength, one.p_false_alarm});
+    named.push_back({one.effect.hypothesis, std::move(with), one.strength, one.p_false_alarm});
   }
   return named;
 }
@@ -39,11 +42,8 @@ bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
   const double most = std::ranges::all_of(named, is_number) ? numbers_denied_ratio : denied_ratio;
   if (named.empty() || result.unknown || ratio < most) return false;
   if (farther_off(result.holdout_inverse) < borne_out_ratio) return false;
-  const auto is_plain = [&](const Suspect& one) {
-    const auto of = std::ranges::find(found.found, one.hypothesis, [](const Found& f) { return f.effect.hypothesis; });
-    return of != found.found.end() && of->error_ratio > beyond_denial_ratio;
-  };
-  if (ratio < much_farther_off && std::ranges::any_of(named, is_plain)) return false;
+  const auto is_plain = [&](const Found& one) { return one.error_ratio > beyond_denial_ratio && is_named(result, one); };
+  if (ratio < much_farther_off && std::ranges::any_of(found.found, is_plain)) return false;
   result.denied_by_unseen = ratio;
   result.effects.clear();
   result.suspects = std::move(named);

@@ -51,7 +51,6 @@ class Diagnosing {
         forward_(data_.fit, data_) {
     for (auto& fault : known) result_.setup.push_back(std::move(fault));
     result_.power_of_command = model_.tracks().front().meter.of_command;
-    for (auto& fault : check_meter(model_.tracks().front(), data_.axis)) result_.setup.push_back(std::move(fault));
   }
 
   Diagnosis run() {

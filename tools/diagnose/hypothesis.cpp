@@ -29,12 +29,16 @@ bool worth_naming(const Active& active, const plant::AxisParameters& axis) {
   return active.hypothesis->finding == nullptr || active.hypothesis->finding(active.q, axis);
 }
 
+double nats_asked(const Active& active, bool far_off) {
+  const Hypothesis& h = *active.hypothesis;
+  const double asked = far_off ? h.least_missed_nats_far_off.value_or(h.least_missed_nats) : h.least_missed_nats;
+  if (h.most_missed_nats_asked == nullptr || active.q.empty()) return asked;
+  return std::min(asked, h.most_missed_nats_asked(active.q));
+}
+
 bool may_be_missed_enough(const Active& active, double gain) {
   constexpr double most_nats_a_gain = 10.0;
-  const Hypothesis& h = *active.hypothesis;
-  double asked = std::min(h.least_missed_nats, h.least_missed_nats_far_off.value_or(h.least_missed_nats));
-  if (h.most_missed_nats_asked != nullptr) asked = std::min(asked, h.most_missed_nats_asked(active.q));
-  return asked < most_nats_a_gain * gain;
+  return std::min(nats_asked(active, false), nats_asked(active, true)) < most_nats_a_gain * gain;
 }
 
 bool bears_out(const Active& active, std::string_view channel) {

@@ -222,8 +222,10 @@ struct Active {
 [[nodiscard]] bool bears_out(const Active& active, std::string_view channel);
 /// Is it so small that the runs alone may tell it, though no channel comes closer?
 [[nodiscard]] bool runs_may_tell(const Active& active);
-/// Can the closed loop miss it by what it asks, where the inverse model gains so much? True ones of such were missed by up
-/// to three nats for each of the gain; what gains less takes no other's place: it would go, and leave none.
+/// By how many nats it must be missed in closed loop, where the numbers would be far from nominal without it or not.
+[[nodiscard]] double nats_asked(const Active& active, bool far_off);
+/// Can the closed loop miss it by what it asks, where the inverse model gains so much? 69 true ones of such were missed by
+/// at most 3.4 nats for each of the gain; what gains less takes no other's place: it would go, and leave none.
 [[nodiscard]] bool may_be_missed_enough(const Active& active, double gain);
 /// Is it an unknown of the inverse model, and of the intervals?
 [[nodiscard]] constexpr bool fitted(Kind kind) {

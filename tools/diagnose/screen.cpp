@@ -7,6 +7,7 @@
 #include <complex>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <span>
 
 #include "tools/diagnose/asking.h"
@@ -17,6 +18,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr std::size_t most_by_chance = 24;  ///< grid points of a hypothesis that surrogates are tried on
+constexpr double step_Hz = 0.01;            // between frequencies that are told apart
 constexpr double much = 0.05;               // of the squares that it touches
 
 /// Power of the whitened residual at a frequency, over all runs.
@@ -37,7 +39,6 @@ double line_power(const InverseModel& model, const Vector& white, double frequen
 /// Between the grid's frequencies: a phase that runs away within a run would end each cut.
 double strongest_near(const InverseModel& model, const Vector& white, double frequency_Hz) {
   constexpr int steps = 10;
-  constexpr double step_Hz = 0.01;
   std::pair<double, double> best{0.0, frequency_Hz};
   for (int i = -steps; i <= steps; ++i) {
     const double near_Hz = frequency_Hz + step_Hz * i;
@@ -51,14 +52,16 @@ void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& mod
   constexpr std::size_t strongest = 3;
   // a process does not stop where the speed changes: two had 0 to 0.55 in their cuts, a real screw's ripple 0.81 and more
   constexpr double most_at_steady_speed = 0.7;
-  for (std::size_t i = 0; i < std::min(strongest, kept.size()); ++i) {
+  const std::size_t lines = std::min(strongest, kept.size());
+  std::set<long> seen;  // grid points beside each other climb the same line
+  for (std::size_t i = 0; i < lines; ++i) {
     const double frequency_Hz = strongest_near(model, white, kept[i][0]);
+    if (!seen.insert(std::lround(frequency_Hz / step_Hz)).second) continue;
     auto windows = windows_of_line(model, white, frequency_Hz);
     if (std::ranges::all_of(windows, &Windows::empty) ||
         share_at_steady_speed(model.tracks(), windows) > most_at_steady_speed)
       continue;
-    const Vector residual = model.residual(fit.model.axis, fit.model.effects);
-    const Cuts cuts = sharpened(model, residual, frequency_Hz, std::move(windows));
+    const Cuts cuts = sharpened(model, model.residual(fit.model.axis, fit.model.effects), frequency_Hz, std::move(windows));
     std::vector<double> shape = kept[i];
     shape[0] = frequency_Hz, shape[1] = cuts.ramp_s;
     set_windows(2, shape, cuts.windows);

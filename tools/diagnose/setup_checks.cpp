@@ -86,6 +86,29 @@ SetupFault given_back(const LostCounts& lost) {
            {"events_per_s", lost.per_s, normal_90 * lost.per_s / std::sqrt(lost.moments)}}};
 }
 
+/// The power meter's window as the readings show it against the configured one; mends the axis.
+std::optional<SetupFault> mend_meter(const Recording& recording, plant::AxisParameters& axis) {
+  const MeteredPower meter = metered_rows(recording, axis);
+  if (meter.window == 1) return std::nullopt;
+  const double shown_s = static_cast<double>(meter.window) * recording.sample_s, half_a_sample_s = 0.5 * recording.sample_s;
+  const auto readings = static_cast<double>(recording.meter.readings_a_window);
+  double &configured_s = axis.power_meter_window_s, &configured_readings = axis.power_meter_readings;
+  if (std::abs(shown_s - configured_s) < 3.0 * half_a_sample_s && readings == configured_readings) return std::nullopt;
+  SetupFault fault{
+      "power_meter_window",
+      "power",
+      std::string(channel::power_W),
+      fmt::format("the power meter averages over {:.3g} s, not over {:.3g} s as configured", shown_s, configured_s),
+      {{"window_s", shown_s, half_a_sample_s}}};
+  if (readings > 1.0) {
+    fault.sentence += fmt::format("; each of its windows spans {:.0f} readings", readings);
+    fault.parameters.push_back({"readings", readings, 0.0});
+  }
+  fault.sentence += ".";
+  configured_s = shown_s, configured_readings = readings;
+  return fault;
+}
+
 }  // namespace
 
 std::vector<SetupFault> mend_setup(Case& data) {
@@ -123,26 +146,9 @@ std::vector<SetupFault> mend_setup(Case& data) {
       multiply(data, channel::position_m, factor);
     }
   }
+  if (!data.fit.empty())
+    if (auto window = mend_meter(data.fit.front(), data.axis)) faults.push_back(std::move(*window));
   return faults;
-}
-
-std::vector<SetupFault> check_meter(const Track& track, plant::AxisParameters& axis) {
-  const auto& meter = track.meter;
-  const double shown_s = static_cast<double>(meter.length) * track.sample_s,
-               every_s = meter.every < meter.length ? static_cast<double>(meter.every) * track.sample_s : 0.0;
-  double &nominal_s = axis.power_meter_window_s, &nominal_every_s = axis.power_meter_every_s;
-  const bool as_configured =
-      std::abs(shown_s - nominal_s) < 1.5 * track.sample_s && std::abs(every_s - nominal_every_s) < 1.5 * track.sample_s;
-  if (!meter.held || as_configured) return {};
-  std::string sentence =
-      fmt::format("the power meter averages over {:.3g} s, not over {:.3g} s as configured", shown_s, nominal_s);
-  sentence += every_s > 0.0 ? fmt::format("; it shows such a mean every {:.3g} s.", every_s) : ".";
-  nominal_s = shown_s, nominal_every_s = every_s;
-  const double half_a_sample_s = 0.5 * track.sample_s;
-  SetupFault fault{
-      "power_meter_window", "power", std::string(channel::power_W), sentence, {{"window_s", shown_s, half_a_sample_s}}};
-  if (every_s > 0.0) fault.parameters.push_back({"every_s", every_s, half_a_sample_s});
-  return {fault};
 }
 
 }  // namespace feedtwin::tools::diagnosis

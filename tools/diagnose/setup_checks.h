@@ -1,6 +1,6 @@
 #pragma once
 // What a wrong wire or a typo does mimics everything, so it is looked for first: a signal in reverse, counts that
-// are lost on the way, a lead that is not the screw's.
+// are lost on the way, a lead that is not the screw's, a meter that averages for longer than the file says.
 
 #include <string>
 #include <vector>
@@ -21,8 +21,5 @@ struct SetupFault {
 
 /// Finds the faults and takes them out of the recordings and the axis, so that the rest of the diagnosis sees them no more.
 [[nodiscard]] std::vector<SetupFault> mend_setup(Case& data);
-
-/// The power meter's window as the readings show it against the nominal one; mends the axis.
-[[nodiscard]] std::vector<SetupFault> check_meter(const Track& track, plant::AxisParameters& axis);
 
 }  // namespace feedtwin::tools::diagnosis

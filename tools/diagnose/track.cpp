@@ -121,7 +121,7 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s, const MeterHa
   for (const auto& [length, count] : lengths)
     if (count > most) most = count, meter.length = length;
   if (meter.length < 2) {  // sampled with the rest: means of 25 ms
-    meter.length = meter.every = std::max<Index>(1, std::lround(0.025 / sample_s));
+    meter.length = std::max<Index>(1, std::lround(0.025 / sample_s));
     for (Index k = 0; k + meter.length <= power_W.size(); k += meter.length) {
       meter.starts.push_back(k);
       meter.power_W.push_back(power_W.segment(k, meter.length).mean());
@@ -130,7 +130,7 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s, const MeterHa
   }
   meter.held = true;
   const Index phase = changes.empty() ? 0 : changes.front() % meter.length;
-  const Index every = meter.every = meter.length;
+  const Index every = meter.length;
   meter.length *= readings;
   for (Index k = phase; k + every < power_W.size(); k += every) {
     const Index start = k + 1 - delay + every - meter.length;

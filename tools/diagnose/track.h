@@ -26,7 +26,6 @@ inline constexpr int path_substeps = 4;
 /// Readings of a power meter that shows means over windows.
 struct MeterWindows {
   Index length = 0;         ///< samples a window
-  Index every = 0;          ///< samples from one to the next: fewer where they overlap
   bool held = false;        ///< the meter's own; otherwise means that we took
   bool of_command = false;  ///< computed from the command: nothing that acts between it and the shaft shows
   std::vector<Index> starts;

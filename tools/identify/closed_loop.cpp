@@ -115,7 +115,8 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
   for (auto* channel : {&out.torque_sensor_Nm, &out.force_sensor_N}) channel->resize(sensors ? view.samples : 0);
   const Terms coefficients = coefficients_of(axis.parameters().motor);
   const bool of_command = run.recording().meter.of_command;
-  const auto setpoint_m_per_s = run.setpoint_m_per_s(axis.parameters());
+  const SetpointSource source = setpoint_source(axis.parameters());
+  const Setpoint& setpoint = run.setpoints().by(source.of_motion);
   for (std::size_t i = 0; i < view.samples; ++i) {
     const double shown_m = axis.shown_position_m() - position_offset_m;
     out.position_m[i] = shown_m;
@@ -123,7 +124,7 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
     out.torque_Nm[i] = view.reference != nullptr
                            ? cascade.torque_Nm(view.reference[i], shown_m, view.tick_s)
                            : view.torque_Nm[i] + stand_in.correction_N(view.position_m[i] - shown_m) / transmission;
-    const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i], .setpoint_m_per_s = setpoint_m_per_s[i]};
+    const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i], .setpoint_m_per_s = setpoint.m_per_s(i, source.lead_s)};
     if (sensors) {
       const auto forces = axis.force_sensors(command);
       out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;

@@ -33,10 +33,8 @@ class ClosedLoopRun {
   [[nodiscard]] lanes::RecordView view() const noexcept;
   [[nodiscard]] const plant::AxisParameters& nominal() const noexcept { return nominal_; }
   [[nodiscard]] bool has_controller() const noexcept { return !reference_.empty(); }
-  /// Row by row what the drive was told to reach, as its axis has it.
-  [[nodiscard]] std::vector<double> setpoint_m_per_s(const plant::AxisParameters& axis) const {
-    return setpoints_.m_per_s(setpoint_source(axis));
-  }
+  /// What the drive was told to reach.
+  [[nodiscard]] const Setpoints& setpoints() const noexcept { return setpoints_; }
   /// Row by row: has the motor's Coulomb friction fully set in? Asked by what reads a torque sensor.
   [[nodiscard]] const std::vector<bool>& motor_slides() const noexcept { return motor_slides_; }
 

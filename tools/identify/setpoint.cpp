@@ -46,13 +46,6 @@ Setpoints setpoints_of(const Recording& recording, double count_m) {
   return all;
 }
 
-std::vector<double> Setpoints::m_per_s(const SetpointSource& source) const {
-  const Setpoint& setpoint = by(source.of_motion);
-  std::vector<double> led = setpoint.velocity_m_per_s;
-  for (std::size_t i = 0; source.lead_s != 0.0 && i < led.size(); ++i) led[i] += source.lead_s * setpoint.slope_m_per_s2[i];
-  return led;
-}
-
 SetpointSource setpoint_source(const plant::AxisParameters& axis) {
   constexpr std::string_view id = "hidden_friction_compensation";
   const auto effect = std::ranges::find(axis.effects, id, &plant::EffectSetting::id);

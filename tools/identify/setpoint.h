@@ -19,6 +19,10 @@ struct SetpointSource {
 /// A velocity row by row, and its slope over some 20 ms: the encoder's grid must not lead.
 struct Setpoint {
   std::vector<double> velocity_m_per_s, slope_m_per_s2;
+
+  [[nodiscard]] double m_per_s(std::size_t row, double lead_s) const noexcept {
+    return velocity_m_per_s[row] + lead_s * slope_m_per_s2[row];
+  }
 };
 
 struct Setpoints {
@@ -28,7 +32,6 @@ struct Setpoints {
   [[nodiscard]] const Setpoint& by(bool motion) const {
     return motion || of_reference.velocity_m_per_s.empty() ? of_motion : of_reference;
   }
-  [[nodiscard]] std::vector<double> m_per_s(const SetpointSource& source) const;
 };
 
 /// @param count_m the encoder's

@@ -214,8 +214,8 @@ MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_
 MeteredPower metered_rows(const Recording& recording, const plant::AxisParameters& axis) {
   const auto power_W = recording.at(channel::power_W);
   if (power_W.empty()) return {};
-  const double window = std::round(axis.power_meter_window_s / recording.sample_s);
-  MeteredPower meter = metered_rows(power_W, static_cast<std::size_t>(window));
+  const double between = std::round(axis.power_meter_window_s / axis.power_meter_readings / recording.sample_s);
+  MeteredPower meter = metered_rows(power_W, static_cast<std::size_t>(between));
   if (meter.window > 1) meter.delay = recording.meter.delay, meter.window *= recording.meter.readings_a_window;
   std::erase_if(meter.rows, [&meter](std::size_t row) { return row + 1 < meter.window + meter.delay; });
   return meter;

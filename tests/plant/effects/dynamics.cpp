@@ -100,10 +100,7 @@ TEST(Dynamics, QuadraticDragAndProcessForce) {
     FeedAxis axis = axis_with(
         {{"quadratic_drag", {3000.0}, {}}, {"process_force", {20.0, 30.0, 70.0, 0.3, 0.05, 0.32, 12.0, ramp_s}, {}}});
     const auto load = [&](double t, double, double v) {
-      const double since_edge_s = std::min(t - 0.05, 0.32 - t);
-      const double in_cut = ramp_s > 0.0         ? std::clamp(since_edge_s / ramp_s + 0.5, 0.0, 1.0)
-                            : since_edge_s > 0.0 ? 1.0
-                                                 : 0.0;
+      const double in_cut = std::clamp(std::min(t - 0.05, 0.32 - t) / std::max(ramp_s, 1e-9) + 0.5, 0.0, 1.0);
       return 3000.0 * v * std::abs(v) +
              in_cut * (20.0 + 12.0 * std::tanh(v / 5e-4) + 30.0 * std::sin(2.0 * test::pi * 70.0 * t + 0.3));
     };

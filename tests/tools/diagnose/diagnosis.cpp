@@ -13,6 +13,7 @@
 #include "tests/support/made_case.h"
 #include "tools/config/axis_file.h"
 #include "tools/diagnose/diagnosis_json.h"
+#include "tools/recording/power_meter.h"
 
 namespace feedtwin {
 namespace {
@@ -50,6 +51,22 @@ TEST(Diagnosis, WrongNumbersAreRecalibratedAndNothingIsNamed) {
   EXPECT_EQ(ids_of(found), "");
   const auto& torque = found.holdout.at("torque_cmd_Nm");
   EXPECT_LT(torque.recalibrated, 0.5 * torque.before);
+}
+
+TEST(Diagnosis, TheUpdatedAxisHasTheMeterAsItReads) {
+  auto truth = plant::source_axis();
+  truth.power_meter_window_s = 0.2, truth.power_meter_readings = 2.0;
+  auto data = tests::short_case(truth, off_by_some_percent());
+  for (auto* runs : {&data.fit, &data.holdout})
+    for (auto& run : *runs) run = tests::make_recording(truth, {.duration_s = 4.0});
+  const auto habit = tools::meter_habit(data.fit, data.axis);
+  for (auto* runs : {&data.fit, &data.holdout})
+    for (auto& run : *runs) run.meter = habit;
+  const auto found = tools::diagnosis::diagnose(data, [](std::string_view) {});
+  ASSERT_EQ(found.setup.size(), 1U);
+  EXPECT_EQ(found.setup[0].id, "power_meter_window");
+  EXPECT_NEAR(found.updated.power_meter_window_s, 0.2, 1e-9);
+  EXPECT_EQ(found.updated.power_meter_readings, 2.0);
 }
 
 TEST(Diagnosis, CoggingIsNamedAloneWithItsSizeAndTheUpdatedAxisHoldsIt) {

@@ -59,6 +59,24 @@ TEST(Learned, AForceThatWavesOverTheTravelAndGrowsWithSpeed) {
   EXPECT_LT(held_out.nrmse(extended).at("torque_cmd_Nm"), 0.6 * held_out.nrmse(data.axis).at("torque_cmd_Nm"));
 }
 
+TEST(Learned, WhatActsAtOnePointOfTheTableIsToldWithAWidth) {
+  auto truth = plant::source_axis();
+  truth.effects.push_back(
+      tests::effect("local_friction", {{"height_N", 15.0}, {"centre_m", 0.004}, {"half_width_m", 3e-4}, {"on_screw", 0.0}}));
+  const auto data = tests::short_case(truth, plant::source_axis());
+  const Learned table = learn_remainder(InverseModel(make_tracks(data.fit, data.axis), data.axis), {data.axis, {}});
+  ASSERT_EQ(table.axis, Where::position);
+  EXPECT_LT(table.low, 0.004);
+  EXPECT_GT(table.high, 0.004);
+  EXPECT_LT(table.high - table.low, 3.1 * (table.points[1] - table.points[0]));
+  const auto is_midway = [&](double x) {  // of the way to the next point, where it would be a single one
+    for (std::size_t i = 1; i < table.points.size(); ++i)
+      if (std::abs(x - 0.5 * (table.points[i - 1] + table.points[i])) < 1e-12) return true;
+    return false;
+  };
+  EXPECT_TRUE(is_midway(table.low) && is_midway(table.high)) << table.low << " to " << table.high;
+}
+
 // Slow runs hold of a mass no more than their noise; taken off from a fast one that was ten times what was left of it.
 TEST(Learned, NumbersThatSlowRowsHardlyHoldAreNotTakenOffFromFastOnes) {
   std::mt19937 random(3);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/made_case.h"
+#include "tools/recording/power_meter.h"
 
 namespace feedtwin {
 namespace {
@@ -236,30 +237,22 @@ TEST(SetupChecks, LossesAtAMarkOrOfManySizesAreNoneOfTheirOwn) {
   EXPECT_TRUE(mend_setup(many_sizes).empty());
 }
 
-TEST(SetupChecks, AMetersWindowIsKnownToHalfASample) {
-  auto axis = plant::source_axis();
-  Track track;
-  track.sample_s = 1e-3;
-  track.meter = {.length = 50, .every = 50, .held = true, .starts = {}, .power_W = {}};
-  const auto faults = check_meter(track, axis);
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_NEAR(faults[0].parameters[0].value, 0.05, 1e-12);
-  EXPECT_EQ(faults[0].parameters[0].half_width, 0.5e-3);
-  EXPECT_NEAR(axis.power_meter_window_s, 0.05, 1e-12);
-  EXPECT_TRUE(check_meter(track, axis).empty()) << "mended";
-}
-
-TEST(SetupChecks, AMetersWindowsMayOverlap) {
-  auto axis = plant::source_axis();
-  Track track;
-  track.sample_s = 1e-3;
-  track.meter = {.length = 200, .every = 100, .held = true, .starts = {}, .power_W = {}};
-  const auto faults = check_meter(track, axis);
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].id, "power_meter_window");
-  EXPECT_NEAR(axis.power_meter_window_s, 0.2, 1e-12);
-  EXPECT_NEAR(axis.power_meter_every_s, 0.1, 1e-12);
-  EXPECT_TRUE(check_meter(track, axis).empty()) << "mended";
+TEST(SetupChecks, AMetersWindowIsKnownToHalfASampleAndWhetherItsWindowsOverlap) {
+  for (const double readings : {1.0, 2.0}) {
+    auto truth = plant::source_axis();
+    truth.power_meter_window_s = 0.2, truth.power_meter_readings = readings;
+    Case data = recorded_with(truth);
+    data.fit[0].meter = tools::meter_habit(data.fit, data.axis);
+    const auto faults = mend_setup(data);
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].id, "power_meter_window");
+    EXPECT_NEAR(faults[0].parameters[0].value, 0.2, 1e-12);
+    EXPECT_EQ(faults[0].parameters[0].half_width, 0.5e-3);
+    EXPECT_EQ(faults[0].parameters.size(), readings > 1.0 ? 2U : 1U);
+    EXPECT_NEAR(data.axis.power_meter_window_s, 0.2, 1e-12);
+    EXPECT_EQ(data.axis.power_meter_readings, readings);
+    EXPECT_TRUE(mend_setup(data).empty()) << "mended";
+  }
 }
 
 }  // namespace

@@ -102,6 +102,31 @@ TEST(Windows, AreFoundWhereTheToolComesIntoTheCutTimeAndAgain) {
   expect_found({{0.603, 1.004}, {1.407, 2.204}, {2.801, 3.607}}, {{0.652, 1.306}, {2.252, 2.906}});
 }
 
+// A screw's ripple is a line wherever the axis moves at a steady speed, and stops where it does not.
+TEST(Windows, ARippleAtSteadySpeedsIsNoProcessThatCutsThere) {
+  const auto nominal = plant::source_axis();
+  auto truth = nominal;
+  truth.effects = {tests::effect("rev_ripple", {{"amplitude_N", 30.0}, {"cycles_per_rev", 4.7}})};
+  const auto run = [&](const plant::AxisParameters& axis, unsigned seed) {
+    return tests::make_recording(
+        axis,
+        {.motion = "triangle", .settings = {.amplitude_m = 0.03, .speed_m_per_s = 0.07}, .duration_s = 4.0, .seed = seed});
+  };
+  const InverseModel calm(make_tracks({run(nominal, 1), run(nominal, 2)}, nominal), nominal);
+  const auto whitening = Whitening::estimate(calm, calm.residual(nominal, {}));
+  const InverseModel model(make_tracks({run(truth, 3), run(truth, 4)}, nominal), nominal);
+  const Fitter fitter(model, nominal);
+  const Fit fit = fitter.fit({nominal, {}}, whitening, 4);
+  const Vector white = whitening.applied(model, model.residual(fit.model.axis, {}));
+  const double ripple_Hz = 4.7 * 0.07 / nominal.axis.lead_m;
+  const auto windows = windows_of_line(model, white, ripple_Hz);
+  ASSERT_FALSE(std::ranges::all_of(windows, &Windows::empty)) << "a line in the flats, at " << ripple_Hz;
+  const auto scores = screen(fitter, fit, whitening).scores;
+  const auto score = std::ranges::find(scores, &hypothesis("process_force"), &Score::hypothesis);
+  ASSERT_NE(score, scores.end());
+  EXPECT_FALSE(windowed(score->hypothesis->first_window, score->q));
+}
+
 // The law of the inverse model, handed to the plant run by run.
 TEST(Windows, AreEachRunsOwnInTheClosedLoop) {
   const Windows first{{0.803, 1.204}, {1.607, 2.204}}, second{{1.752, 3.106}};

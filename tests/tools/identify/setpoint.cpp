@@ -34,9 +34,10 @@ Recording behind(bool with_reference) {
 }
 
 double farthest_off_m_per_s(const Setpoints& setpoints, const SetpointSource& source) {
-  const auto all = setpoints.m_per_s(source);
+  const Setpoint& setpoint = setpoints.by(source.of_motion);
   double farthest = 0.0;
-  for (int k = 20; k < 980; ++k) farthest = std::max(farthest, std::abs(all[static_cast<std::size_t>(k)] - told_m_per_s(k)));
+  for (int k = 20; k < 980; ++k)
+    farthest = std::max(farthest, std::abs(setpoint.m_per_s(static_cast<std::size_t>(k), source.lead_s) - told_m_per_s(k)));
   return farthest;
 }
 

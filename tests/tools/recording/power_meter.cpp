@@ -141,17 +141,17 @@ TEST(MeterHabit, OfAMeterThatShowsTheTicksBeforeTheRowIsOne) {
 }
 
 TEST(MeterHabit, AWindowThatSpansSeveralReadingsIsTold) {
-  for (const double every_s : {0.0, 0.1}) {
+  for (const std::size_t readings : {1U, 3U}) {
     auto axis = plant::source_axis();
-    axis.power_meter_window_s = 0.3, axis.power_meter_every_s = every_s;
+    axis.power_meter_window_s = 0.3, axis.power_meter_readings = static_cast<double>(readings);
     auto runs = runs_of_the_plant(axis);
     const auto habit = meter_habit(runs, plant::source_axis());
-    EXPECT_EQ(habit.readings_a_window, every_s > 0.0 ? 3U : 1U);
+    EXPECT_EQ(habit.readings_a_window, readings);
     EXPECT_EQ(habit.delay, 0U);
     for (auto& run : runs) run.meter = habit;
     const auto meter = metered_rows(runs[0], plant::source_axis());
     EXPECT_EQ(meter.window, 300U);
-    EXPECT_EQ(meter.rows[1] - meter.rows[0], every_s > 0.0 ? 100U : 300U);
+    EXPECT_EQ(meter.rows[1] - meter.rows[0], 300U / readings);
     EXPECT_GE(meter.rows[0] + 1, meter.window);
   }
 }

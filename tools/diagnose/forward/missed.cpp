@@ -124,10 +124,7 @@ double nats_to_stay(const Found& named, double farther) {
   // were missed by 1360 nats and put them 930 squared tolerances off
   constexpr double far_nearer = 100.0, times_as_many = 2.0;
   const Hypothesis& h = *named.effect.hypothesis;
-  double least =
-      farther > far_from_nominal ? h.least_missed_nats_far_off.value_or(h.least_missed_nats) : h.least_missed_nats;
-  if (h.most_missed_nats_asked != nullptr && !named.effect.q.empty())
-    least = std::min(least, h.most_missed_nats_asked(named.effect.q));
+  double least = nats_asked(named.effect, farther > far_from_nominal);
   if (farther < (h.told_by_runs_nats ? 0.0 : h.number_of_the_model ? -clearly_nearer : -1e300))
     least *= where_it_puts_them_off;
   if (named.error_ratio > explains_most_ratio) least = std::min(least, enough_of_what_explains_most);

@@ -8,9 +8,12 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const auto setpoint_m_per_s = view.track.setpoints.m_per_s({.lead_s = q[2], .of_motion = q[3] > 0.5});
-  const Eigen::Map<const Vector> v(setpoint_m_per_s.data(), view.track.size);
-  add(sum.drive_N, q[0] * per_lead(view.transmission()) * (v.array() / q[1]).tanh().matrix());
+  const Setpoint& setpoint = view.track.setpoints.by(q[3] > 0.5);
+  const auto along = [&](const std::vector<double>& rows) {
+    return Eigen::Map<const Eigen::ArrayXd>(rows.data(), view.track.size);
+  };
+  const Eigen::ArrayXd setpoint_m_per_s = along(setpoint.velocity_m_per_s) + q[2] * along(setpoint.slope_m_per_s2);
+  add(sum.drive_N, q[0] * per_lead(view.transmission()) * (setpoint_m_per_s / q[1]).tanh().matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
