@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "tools/diagnose/pair_sums.h"
-
 namespace feedtwin::tools::diagnosis {
 namespace {
 
@@ -33,6 +31,14 @@ std::vector<Index> waves_of(const Eigen::ArrayXd& gain, Index harmonics) {
   return best;
 }
 
+/// Of each run, from those of its folds in turn.
+std::vector<PairSums> all_folds(const std::vector<PairSums>& by_fold, std::size_t runs) {
+  std::vector<PairSums> all(runs, PairSums(frequencies));
+  const std::size_t folds = by_fold.size() / runs;
+  for (std::size_t i = 0; i < by_fold.size(); ++i) all[i / folds].add(by_fold[i]);
+  return all;
+}
+
 }  // namespace
 
 Beat::Beat(std::span<const BeatMoment> moments, std::size_t folds)
@@ -51,22 +57,35 @@ Beat::Beat(std::span<const BeatMoment> moments, std::size_t folds)
   }
 }
 
-/// Waves that do not turn with the motion are those of the beat times its sign.
-Vector Beat::pulses_unseen(const Vector& y) const {
-  constexpr Index harmonics = 3;
-  Vector way(y.size());
-  for (std::size_t k = 0; k < moments_.size(); ++k) way[static_cast<Index>(k)] = moments_[k].forth ? 1.0 : -1.0;
-  return way.cwiseProduct(unseen(way.cwiseProduct(y), harmonics));
+Vector Beat::in_motion(const Vector& y) const {
+  Vector turned = y;
+  for (std::size_t k = 0; k < moments_.size(); ++k)
+    if (!moments_[k].forth) turned[static_cast<Index>(k)] = -turned[static_cast<Index>(k)];
+  return turned;
 }
 
-Vector Beat::unseen(const Vector& y, Index harmonics) const {
-  std::vector<PairSums> all(runs_, PairSums(frequencies)), own(runs_ * folds_, PairSums(frequencies));
+Vector Beat::pulses_unseen(const Vector& y) const {
+  return in_motion(unseen(in_motion(y), pulse_waves));
+}
+
+std::vector<PairSums> Beat::sums_by_fold(const Vector& y) const {
+  std::vector<PairSums> own(runs_ * folds_, PairSums(frequencies));
   for (std::size_t k = 0; k < moments_.size(); ++k) {
     const auto column = static_cast<Index>(k);
     own[moments_[k].run * folds_ + moments_[k].fold].add_row(sine_.col(column), cosine_.col(column), y[column]);
   }
-  for (std::size_t r = 0; r < runs_; ++r)
-    for (std::size_t f = 0; f < folds_; ++f) all[r].add(own[r * folds_ + f]);
+  return own;
+}
+
+double Beat::strongest_Hz(const Vector& y, Index harmonics) const {
+  Eigen::ArrayXd gain = Eigen::ArrayXd::Zero(frequencies);
+  for (const auto& run : all_folds(sums_by_fold(y), runs_)) gain += run.gain();
+  return lowest_Hz + step_Hz * static_cast<double>(waves_of(gain, harmonics).front());
+}
+
+Vector Beat::unseen(const Vector& y, Index harmonics) const {
+  const auto own = sums_by_fold(y);
+  const auto all = all_folds(own, runs_);
   Vector predicted = Vector::Zero(y.size());
   for (std::size_t f = 0; f < folds_; ++f) {
     std::vector<PairSums> others = all;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/diagnose/pair_sums.h"
 #include "tools/diagnose/track.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -23,9 +24,17 @@ class Beat {
   [[nodiscard]] Vector unseen(const Vector& y) const { return unseen(y, 1); }
   /// The same of pulses.
   [[nodiscard]] Vector pulses_unseen(const Vector& y) const;
+  /// The frequency, of the waves and of the pulses, that explains most of all folds.
+  [[nodiscard]] double wave_Hz(const Vector& y) const { return strongest_Hz(y, 1); }
+  [[nodiscard]] double pulses_Hz(const Vector& y) const { return strongest_Hz(in_motion(y), pulse_waves); }
 
  private:
+  static constexpr Index pulse_waves = 3;
   [[nodiscard]] Vector unseen(const Vector& y, Index harmonics) const;
+  [[nodiscard]] double strongest_Hz(const Vector& y, Index harmonics) const;
+  /// Waves that do not turn with the motion are those of the beat times its sign.
+  [[nodiscard]] Vector in_motion(const Vector& y) const;
+  [[nodiscard]] std::vector<PairSums> sums_by_fold(const Vector& y) const;  ///< of each run, its folds in turn
 
   std::vector<BeatMoment> moments_;
   std::size_t folds_, runs_ = 0;

@@ -40,8 +40,8 @@ bool same_both_ways(const Fitter& fitter, std::size_t i) {
   return value_of(fitter.base()[i], fitter.nominal()) == value_of(fitter.base()[other], fitter.nominal());
 }
 
-/// Of the components whose friction the file does not tell by direction.
-Difference difference(const Fitter& fitter, const Fit& fit, Index unknowns, bool coulomb) {
+/// Of the components whose friction the file does not tell by direction, or of one of them.
+Difference difference(const Fitter& fitter, const Fit& fit, Index unknowns, bool coulomb, std::string_view component = "") {
   Difference sum{.slope = Vector::Zero(unknowns)};
   const double rad_per_m = 2.0 * std::numbers::pi / fit.model.axis.axis.lead_m;
   for (std::size_t i = 0; i < fitter.base().size(); ++i) {
@@ -49,7 +49,7 @@ Difference difference(const Fitter& fitter, const Fit& fit, Index unknowns, bool
     const auto key = parameter.entry->key;
     const bool motor = is_of(key, "damping");
     if (coulomb ? !is_of(key, "coulomb") : !is_of(key, "viscous") && !motor) continue;
-    if (!same_both_ways(fitter, i)) continue;
+    if (!same_both_ways(fitter, i) || !key.starts_with(component)) continue;
     const double to_table = motor ? rad_per_m * rad_per_m : 1.0;
     const bool forth = key.find("_pos_") != std::string_view::npos;
     (forth ? sum.forth : sum.back) += to_table * value_of(parameter, fit.model.axis);
@@ -61,6 +61,23 @@ Difference difference(const Fitter& fitter, const Fit& fit, Index unknowns, bool
 Estimate estimate(const Difference& difference, const Eigen::MatrixXd& covariance) {
   const double half = for_the_laws * normal_90 * difference.deviation(covariance);
   return {difference.value(), difference.value() - half, difference.value() + half};
+}
+
+/// A constant force that in motion is the same: a torque's offset where the difference may be the motor's, a weight's share
+/// where it may be the guide's. A sensor tells whose it is.
+std::vector<std::string> constant_forces(const Fitter& fitter, const Fit& fit, Index unknowns) {
+  constexpr double most_of_it = 0.7;
+  const double all = difference(fitter, fit, unknowns, true).value();
+  const auto share = [&](std::string_view component) {
+    return difference(fitter, fit, unknowns, true, component).value() / all;
+  };
+  const Track& track = fitter.model().tracks().front();
+  const bool torque = track.torque_sensor_N.size() > 0, force = track.force_sensor_N.size() > 0;
+  const double behind_motor = share("motor"), behind_screw = behind_motor + share("ball_screw");
+  std::vector<std::string> found;
+  if (torque ? behind_motor > most_of_it : !force || behind_screw > most_of_it) found.emplace_back("torque_offset");
+  if (force ? behind_screw < 1.0 - most_of_it : !torque || behind_motor < 1.0 - most_of_it) found.emplace_back("gravity");
+  return found;
 }
 
 }  // namespace
@@ -79,9 +96,7 @@ std::optional<NamedEffect> difference_by_direction(const Fitter& fitter, const F
   double fastest = 0.0;
   for (const auto& track : fitter.model().tracks()) fastest = std::max(fastest, track.centred_m_per_s.cwiseAbs().maxCoeff());
   effect.intervals = {{-fastest, fastest}};
-  const Track& track = fitter.model().tracks().front();
-  if (!viscous.shows(covariance) && track.torque_sensor_N.size() == 0 && track.force_sensor_N.size() == 0)
-    effect.alternatives = {"torque_offset", "gravity"};  // in motion a constant force is the same
+  if (!viscous.shows(covariance)) effect.alternatives = constant_forces(fitter, fit, covariance.rows());
   effect.sentence =
       sentence_of(effect) + " The axis file has one number for both; the recalibrated ones hold the difference.";
   return effect;

@@ -206,6 +206,10 @@ class Diagnosing {
   }
 
   void tell_what_is_unknown() {
+    if (!unknown_ && !anything_missing(result_) && (result_.unknown_reading = what_stands_out(model_, told_, progress_))) {
+      result_.verdict = "unknown";
+      return result_.suspects.clear();
+    }
     Learned learned = learn_remainder(model_, told_);
     if (!unknown_ && laws_of_speed_fall_short(result_.effects, learned)) {
       unknown_ = true, told_ = only_what_the_force_does_not_show(result_, found_, told_);
@@ -228,7 +232,6 @@ class Diagnosing {
   void show() {
     progress_("figures on what the fit did not see");
     const auto& unseen = data_.holdout.empty() ? data_.fit : data_.holdout;
-    const Candidate nominal{data_.axis, {}};
     const InverseModel held_out(make_tracks(unseen, data_.axis, jump_share_), data_.axis);
     const Candidate told_unseen = for_unseen(held_out, found_.whitening, told_);
     forward_.learn_meter_noise(with_phases_of(told_, result_.updated));
@@ -236,8 +239,8 @@ class Diagnosing {
     simulated.take_meter_from(forward_);
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
-    const Followed as_given = followed(held_out, nominal), as_recalibrated = followed(held_out, recalibrated_only),
-                   as_told = followed(held_out, told_unseen);
+    const auto as_given = followed(held_out, Candidate{data_.axis, {}}),
+               as_recalibrated = followed(held_out, recalibrated_only), as_told = followed(held_out, told_unseen);
     result_.holdout_inverse = figures(as_given, as_recalibrated, as_told);
     result_.force_error = force_errors(as_given, as_recalibrated, as_told);
     result_.holdout = figures(simulated, data_.axis, extended(recalibrated_only), updated_unseen);

@@ -13,6 +13,7 @@
 #include "tools/diagnose/figures.h"
 #include "tools/diagnose/learned.h"
 #include "tools/diagnose/planning/next_experiment.h"
+#include "tools/diagnose/reading_structure.h"
 #include "tools/diagnose/search.h"
 #include "tools/diagnose/setup_checks.h"
 #include "tools/diagnose/suspects.h"
@@ -51,7 +52,8 @@ struct Diagnosis {
   std::string verdict, summary;
   std::vector<SetupFault> setup;
   std::vector<NamedEffect> effects;
-  std::optional<Learned> unknown;  ///< structure that no hypothesis explains
+  std::optional<Learned> unknown;                   ///< structure that no hypothesis explains
+  std::optional<ReadingStructure> unknown_reading;  ///< the same of what a channel shows and the axis does not do
   std::vector<Recalibrated> recalibrated;
   std::map<std::string, ChannelFigures> holdout;          ///< by closed-loop simulation
   std::map<std::string, ChannelFigures> holdout_inverse;  ///< by the inverse model, through its low pass

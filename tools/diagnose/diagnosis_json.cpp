@@ -52,6 +52,15 @@ json of(const NamedEffect& effect) {
           {"p_false_alarm", effect.p_false_alarm}};
 }
 
+json of(const ReadingStructure& reading) {
+  json out = {{"channel", reading.channel},
+              {"follows", what_it_follows(reading)},
+              {"remainder", reading.remainder},
+              {"share_unseen", reading.share}};
+  if (reading.every > 0.0) out["every"] = reading.every;
+  return out;
+}
+
 }  // namespace
 
 json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
@@ -81,6 +90,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
     out["unknown"]["mode"] = {{"mass_kg", diagnosis.unknown->mode->mass_kg},
                               {"frequency_Hz", diagnosis.unknown->mode->frequency_Hz},
                               {"damping_ratio", diagnosis.unknown->mode->damping_ratio}};
+  if (diagnosis.unknown_reading) out["unknown"] = of(*diagnosis.unknown_reading);
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));
     if (effect.alternatives.empty()) continue;

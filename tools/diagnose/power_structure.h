@@ -2,9 +2,7 @@
 // What of a power remainder is no meter's noise: powers that the recorded command and motion could make in any drive. A
 // meter's noise is far below what a wrong number leaves over, so that the remainder itself cannot tell it.
 
-#include <vector>
-
-#include "tools/diagnose/inverse_model.h"
+#include "tools/diagnose/reading_rows.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -17,9 +15,7 @@ class PowerStructure {
   [[nodiscard]] Vector part_of(const Vector& residual) const;
 
  private:
-  std::vector<Index> rows_;         ///< of the power equation, all runs in turn
-  Eigen::MatrixXd columns_;         ///< a row each
-  std::vector<std::size_t> folds_;  ///< of each
+  ReadingRows rows_;  ///< of the power equation, all runs in turn
 };
 
 }  // namespace feedtwin::tools::diagnosis

@@ -68,6 +68,16 @@ std::vector<std::string> ids_of(const std::vector<Suspect>& suspects) {
   return ids;
 }
 
+std::string in_words(const ReadingStructure& reading) {
+  const bool commanded = reading.channel == channel::torque_cmd_Nm;
+  return fmt::format(
+      "The mismatch is real and none of the known effects explains it: {} is {:.2g} rms off in its unit, and {:.0f} % of "
+      "that "
+      "follows {}, on seconds that it was not learned from. {} The updated axis does not hold it.",
+      reading.channel, reading.remainder, 100.0 * reading.share, what_it_follows(reading),
+      commanded ? "What acts is not what was commanded." : "The channel shows it; the axis does not do it.");
+}
+
 std::string outcome_of(const Diagnosis& diagnosis) {
   const auto& verdict = diagnosis.verdict;
   if (verdict == "agrees")
@@ -76,6 +86,7 @@ std::string outcome_of(const Diagnosis& diagnosis) {
   if (verdict == "recalibrate" && diagnosis.effects.empty())
     return fmt::format("{} numbers of the model are off; no physics is missing beyond {:.2g} N rms.",
                        diagnosis.recalibrated.size(), diagnosis.detection_limit_N);
+  if (verdict == "unknown" && diagnosis.unknown_reading) return in_words(*diagnosis.unknown_reading);
   if (verdict == "unknown" && diagnosis.unknown->axis == Where::frequency)
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a part that swings on a "

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "tools/diagnose/moments.h"
 #include "tools/diagnose/taken_up.h"
@@ -17,15 +16,6 @@ constexpr std::size_t folds = folds_of_moments;
 
 bool of_force(const Equation& equation) {
   return !equation.slip && !equation.power;
-}
-
-/// Hat functions over a range: adds them, times a weight, to one row.
-void hats(double x, double low, double high, Index count, double weight, Eigen::Ref<Vector> row, Index from) {
-  const double place = std::clamp((x - low) / (high - low + 1e-12), 0.0, 1.0) * static_cast<double>(count - 1);
-  const Index i = std::min<Index>(static_cast<Index>(place), count - 2);
-  const double share = place - static_cast<double>(i);
-  row[from + i] += weight * (1.0 - share);
-  row[from + i + 1] += weight * share;
 }
 
 /// Torque, sliding and viscous friction that change with what the drive has had to give, friction with how far it has run.
@@ -88,8 +78,8 @@ void over_region(double place_share, double speed_share, Vector& row, Index from
   const double at = std::clamp(place_share, 0.0, 1.0) * static_cast<double>(regions - 1);
   const Index i = std::min<Index>(static_cast<Index>(at), regions - 2);
   const double share = at - static_cast<double>(i);
-  hats(speed_share, 0.0, 1.0, speeds_there, 1.0 - share, row, from + i * speeds_there);
-  hats(speed_share, 0.0, 1.0, speeds_there, share, row, from + (i + 1) * speeds_there);
+  add_hats(speed_share, 0.0, 1.0, speeds_there, 1.0 - share, row, from + i * speeds_there);
+  add_hats(speed_share, 0.0, 1.0, speeds_there, share, row, from + (i + 1) * speeds_there);
 }
 
 Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
@@ -109,11 +99,11 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
     const double speed_share = std::sqrt(std::abs(m.velocity_m_per_s) / fastest);
     Index from = 0;
     const auto both_ways = [&](double x, double a, double b, Index count) {
-      hats(x, a, b, count, 1.0, row, from + (forth ? 0 : count));
+      add_hats(x, a, b, count, 1.0, row, from + (forth ? 0 : count));
       from += 2 * count;
     };
     both_ways(m.position_m, low, high, places);
-    hats(m.position_m, low, high, places, m.velocity_m_per_s / fastest, row, from);
+    add_hats(m.position_m, low, high, places, m.velocity_m_per_s / fastest, row, from);
     from += places;
     both_ways(speed_share, 0.0, 1.0, speeds);
     both_ways(std::log(std::clamp(m.since_reversal_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
@@ -150,7 +140,6 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
     places_[segment.run] = std::move(of_run.rows);
   }
   if (all.size() < least_rows) return;
-  rows_ = regressors_of(all);
   std::vector<BeatMoment> beats;
   for (const auto& m : all) beats.push_back({m.time_s, m.velocity_m_per_s > 0.0, m.run, m.fold});
   beat_.emplace(beats, folds);
@@ -160,56 +149,22 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   std::vector<double> accelerations, velocities;
   for (const auto& m : all) accelerations.push_back(m.acceleration_m_per_s2), velocities.push_back(m.velocity_m_per_s);
   numbers_ = columns_of_numbers(accelerations, velocities);
-  members_.resize(folds);
-  for (std::size_t k = 0; k < all.size(); ++k) members_[all[k].fold].push_back(static_cast<Index>(k));
-  std::vector<Eigen::MatrixXd> normal;
-  for (const auto& own : members_) {
-    const Eigen::MatrixXd part = rows_(Eigen::all, own);
-    normal.push_back(part * part.transpose());
-  }
-  for (const unsigned parts : asked) {
-    Way way{columns_of(parts), {}};
-    for (std::size_t f = 0; f < folds; ++f) {
-      Eigen::MatrixXd others = Eigen::MatrixXd::Zero(rows_.rows(), rows_.rows());
-      for (std::size_t g = 0; g < folds; ++g)
-        if (g != f) others += normal[g];
-      Eigen::MatrixXd own = others(way.columns, way.columns);
-      for (Index i = 0; i < own.rows(); ++i) own(i, i) += 10.0 + 0.02 * own(i, i);  // as if ten more rows had said zero
-      way.solvers.emplace_back(own);
-    }
-    ways_.push_back(std::move(way));
-  }
-}
-
-Vector RepeatableStructure::additive(const Vector& y, std::size_t ways) const {
-  std::vector<Vector> right;
-  for (const auto& own : members_) right.push_back(rows_(Eigen::all, own) * y(own));
-  Vector best;
-  double least = 1e300;
-  for (const auto& way : std::span(ways_).first(ways)) {
-    Vector predicted = Vector::Zero(y.size());
-    for (std::size_t f = 0; f < members_.size(); ++f) {
-      Vector others = Vector::Zero(rows_.rows()), weight = others;
-      for (std::size_t g = 0; g < members_.size(); ++g)
-        if (g != f) others += right[g];
-      const Vector right_side = others(way.columns), found = way.solvers[f].solve(right_side);
-      weight(way.columns) = found;
-      for (const Index k : members_[f]) predicted[k] = weight.dot(rows_.col(k));
-    }
-    const double error = (y - predicted).squaredNorm();
-    if (error < least) least = error, best = std::move(predicted);
-  }
-  return best;
+  std::vector<std::size_t> fold;
+  for (const auto& m : all) fold.push_back(m.fold);
+  std::vector<AdditiveModel::Columns> ways;
+  for (const unsigned parts : asked) ways.push_back(columns_of(parts));
+  constexpr double rows_of_zero = 10.0;
+  additive_ = AdditiveModel(regressors_of(all), fold, ways, rows_of_zero);
 }
 
 Vector RepeatableStructure::unseen(const Vector& y, std::size_t ways) const {
-  Vector best = additive(y, ways);
+  Vector best = additive_.unseen(y, ways).predicted;
   const auto or_better = [&](Vector other) {
     if ((y - other).squaredNorm() < (y - best).squaredNorm()) best = std::move(other);
   };
   const auto beside = [&](const Vector& keeps_time) {
     or_better(keeps_time);
-    or_better(keeps_time + additive(y - keeps_time, ways));
+    or_better(keeps_time + additive_.unseen(y - keeps_time, ways).predicted);
   };
   beside(beat_->unseen(y));
   if (ways > with_springs) beside(beat_->pulses_unseen(y));
@@ -217,7 +172,7 @@ Vector RepeatableStructure::unseen(const Vector& y, std::size_t ways) const {
 }
 
 Vector RepeatableStructure::gathered(const Vector& residual, std::size_t equation) const {
-  Vector y = Vector::Zero(rows_.cols());
+  Vector y = Vector::Zero(additive_.moments());
   Index at = 0;
   for (std::size_t run = 0; run < places_.size(); ++run)
     for (const auto& s : model_.segments()) {
@@ -229,7 +184,7 @@ Vector RepeatableStructure::gathered(const Vector& residual, std::size_t equatio
 
 Vector RepeatableStructure::part_of(const Vector& residual) const {
   Vector part = Vector::Zero(residual.size());
-  if (rows_.cols() == 0) return part;
+  if (additive_.moments() == 0) return part;
   for (std::size_t e = 0; e < model_.equations().size(); ++e) {
     if (!of_force(model_.equations()[e])) continue;
     const Vector y = gathered(residual, e), predicted = unseen(y, ways_of_colour);
@@ -246,17 +201,17 @@ Vector RepeatableStructure::part_of(const Vector& residual) const {
 
 Structure RepeatableStructure::remaining(const Vector& residual) const {
   Structure found;
-  if (rows_.cols() == 0) return found;
-  Vector y = Vector::Zero(rows_.cols());
+  if (additive_.moments() == 0) return found;
+  Vector y = Vector::Zero(additive_.moments());
   for (std::size_t e = 0; e < model_.equations().size(); ++e)
     if (of_force(model_.equations()[e])) y += gathered(residual, e);
   y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm();
   const auto left_by = [&](std::size_t ways) { return (y - unseen(y, ways)).squaredNorm(); };
-  double after = left_by(ways_.size());
+  double after = left_by(additive_.ways());
   if (before > 0.0) found.gives_way = std::max(0.0, left_by(ways_of_colour) - left_by(with_springs)) / before;
   const Vector rings = ringing_->unseen(y), rest = y - rings;
-  const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest, ways_.size())).squaredNorm();
+  const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest, additive_.ways())).squaredNorm();
   if (rung > 0.0 && std::min(beside, before - rung) < after) {
     after = std::min(beside, before - rung);
     if (rung > 0.5 * (before - after)) found.rings = ringing_->mode(y);

@@ -4,10 +4,10 @@
 // with time, what fades with use, speed by region of the travel - what keeps time and a part that rings, learned on three
 // quarters of the seconds and judged on the fourth, in turn.
 
-#include <Eigen/Cholesky>
 #include <optional>
 #include <vector>
 
+#include "tools/diagnose/additive_model.h"
 #include "tools/diagnose/beat.h"
 #include "tools/diagnose/inverse_model.h"
 #include "tools/diagnose/ringing.h"
@@ -36,20 +36,12 @@ class RepeatableStructure {
  private:
   /// By the best of the first so many ways.
   [[nodiscard]] Vector unseen(const Vector& y, std::size_t ways) const;
-  [[nodiscard]] Vector additive(const Vector& y, std::size_t ways) const;
   [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
 
   const InverseModel& model_;
   std::vector<std::vector<Index>> places_;   ///< settled rows of every run
-  Eigen::MatrixXd rows_;                     ///< a column a settled row, runs in turn
   Eigen::MatrixXd numbers_;                  ///< a row a settled row: what mass and friction could do
-  std::vector<std::vector<Index>> members_;  ///< of each fold
-  /// Some parts of the additive model.
-  struct Way {
-    std::vector<Index> columns;
-    std::vector<Eigen::LDLT<Eigen::MatrixXd>> solvers;  ///< from the other folds
-  };
-  std::vector<Way> ways_;
+  AdditiveModel additive_;
   std::optional<Beat> beat_;
   std::optional<Ringing> ringing_;
 };

@@ -52,6 +52,20 @@ TEST(ByDirection, ADifferenceIsToldToWhoHasOneNumberForBoth) {
   EXPECT_EQ(without_sensors->alternatives, (std::vector<std::string>{"torque_offset", "gravity"}));
 }
 
+// A torque's offset is in the motor's equation alone, a weight's share in the table's.
+TEST(ByDirection, ASensorTellsWhichConstantForceItMayBe) {
+  const auto nominal = same_both_ways(plant::source_axis());
+  auto of_motor = nominal, of_guide = nominal;
+  of_motor.motor.coulomb_N = {nominal.motor.coulomb_N.pos + 6.0, nominal.motor.coulomb_N.neg - 6.0};
+  of_guide.guide.coulomb_N = {nominal.guide.coulomb_N.pos + 6.0, nominal.guide.coulomb_N.neg - 6.0};
+  of_guide.guide.static_N = {nominal.guide.static_N.pos + 6.0, nominal.guide.static_N.neg - 6.0};
+  for (const auto& [truth, force] : {std::pair{of_motor, "torque_offset"}, {of_guide, "gravity"}}) {
+    const auto found = told(truth, nominal, true);
+    ASSERT_TRUE(found.has_value()) << force;
+    EXPECT_EQ(found->alternatives, std::vector<std::string>{force});
+  }
+}
+
 TEST(ByDirection, ADifferenceOfTwoPerCentIsTold) {
   const auto nominal = same_both_ways(plant::source_axis());
   const double coulomb_N = nominal.motor.coulomb_N.pos + nominal.ball_screw.coulomb_N.pos + nominal.guide.coulomb_N.pos;

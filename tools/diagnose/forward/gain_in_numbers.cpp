@@ -47,23 +47,25 @@ Found told(const Active& gain, const CommonShift& shift, double share) {
 
 }  // namespace
 
-CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis) {
-  std::vector<double> shifts;
-  double mass = 0.0, tolerance = 0.0;
-  for (const auto& number : fitter.base()) {
+CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis, const Eigen::MatrixXd& covariance) {
+  std::vector<std::pair<double, double>> shifts;  // and how much of each the runs tell, where the file's tolerance does not
+  double mass = 0.0, tolerance = 0.0, told = 0.0, mean = 0.0, left = 0.0;
+  for (std::size_t i = 0; i < fitter.base().size(); ++i) {
+    const auto& number = fitter.base()[i];
     if (!number.entry->key.starts_with("guide.") || number.known_to_a_factor) continue;
     const double now = value_of(number, axis), nominal = value_of(number, fitter.nominal());
     if (now <= 0.0 || nominal <= 0.0) return {};
-    shifts.push_back(std::log(now / nominal));
-    if (number.entry->key == "guide.mass_kg") mass = shifts.back(), tolerance = number.tolerance;
+    const auto at = static_cast<Index>(i);
+    shifts.emplace_back(std::log(now / nominal), std::clamp(1.0 - covariance(at, at), 0.0, 1.0));
+    told += shifts.back().second;
+    if (number.entry->key == "guide.mass_kg") mass = shifts.back().first, tolerance = number.tolerance;
   }
-  const double count = static_cast<double>(shifts.size());
-  double mean = 0.0, left = 0.0;
-  for (const double shift : shifts) mean += shift / count;
-  for (const double shift : shifts) left += std::pow((shift - mean) / tolerance, 2);
+  if (told <= 0.0) return {};
+  for (const auto& [shift, weight] : shifts) mean += weight * shift / told;
+  for (const auto& [shift, weight] : shifts) left += weight * std::pow((shift - mean) / tolerance, 2);
   return {.factor = std::exp(mean),
-          .fall = count * std::pow(mean / tolerance, 2),
-          .of_all_together = std::abs(mean) > tolerance && mass / mean > least_share_of_mass && left < most_left * count};
+          .fall = told * std::pow(mean / tolerance, 2),
+          .of_all_together = std::abs(mean) > tolerance && mass / mean > least_share_of_mass && left < most_left * told};
 }
 
 bool CommonShift::stands_for(double gain) const {
@@ -95,7 +97,7 @@ std::optional<Ruling> ask_for_gain_in_numbers(const ForwardModel& forward, const
                                               Fit& fit, std::optional<Ruling> settled,
                                               const std::function<void(std::string_view)>& progress) {
   if (!can_be_told(fitter, fit.model)) return settled;
-  const CommonShift shift = common_shift(fitter, settled ? settled->model.axis : fit.model.axis);
+  const CommonShift shift = common_shift(fitter, settled ? settled->model.axis : fit.model.axis, fit.covariance);
   if (!shift.of_all_together) return settled;
   Ruling now = settled ? *settled : rule(fit, forward, fitter);
   Ruling with = likelier(fitter.linearised(with_gain(now.model, shift.factor), found.whitening), forward, fitter);

@@ -20,7 +20,9 @@ struct CommonShift {
   /// May it come of a sensor with this gain? Polished, a gain may end far from it, for what else the model simplifies.
   [[nodiscard]] bool stands_for(double gain) const;
 };
-[[nodiscard]] CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis);
+/// @param covariance of the base parameters, in tolerances: a number of which the runs tell nothing has no say
+[[nodiscard]] CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis,
+                                       const Eigen::MatrixXd& covariance);
 
 /// The axis with so many times less of the table, and with what that takes given to the screw: the same to the motor,
 /// but for the damping of the bristles, of which the screw may have none to give.

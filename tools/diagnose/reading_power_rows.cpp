@@ -1,0 +1,96 @@
+// The power meter's rows: a window each.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/diagnose/reading_rows.h"
+#include "tools/recording/power_meter.h"
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double stretch_of_windows_s = 0.73;  // no motion repeats in step with it
+constexpr std::size_t power_folds = 4;
+constexpr Index readings = 8, places = 16, speeds = 12, commands = 8;
+
+/// What the drive's power is made of, sample by sample.
+Eigen::MatrixXd powers_of(const Track& track) {
+  Eigen::MatrixXd all(track.size, std::tuple_size_v<DrivePowers>);
+  for (Index k = 0; k < track.size; ++k) {
+    const auto now = drive_powers(track.held_N[k], track.metered_m_per_s[k]);
+    all.row(k) = Eigen::Map<const Eigen::RowVectorXd>(now.data(), all.cols());
+  }
+  return all;
+}
+
+struct WindowRanges {
+  double low_m = 1e300, high_m = -1e300, fastest = 1e-9, strongest_N = 1e-9, least_W = 1e300, most_W = -1e300;
+  explicit WindowRanges(const std::vector<Track>& tracks) {
+    for (const auto& t : tracks) {
+      low_m = std::min(low_m, t.position_m.minCoeff()), high_m = std::max(high_m, t.position_m.maxCoeff());
+      fastest = std::max(fastest, t.steady_m_per_s.cwiseAbs().maxCoeff());
+      strongest_N = std::max(strongest_N, t.held_N.cwiseAbs().maxCoeff());
+      for (const double p : t.meter.power_W) least_W = std::min(least_W, p), most_W = std::max(most_W, p);
+    }
+  }
+};
+
+/// Means over a window, and what is read over it.
+Vector column_of_window(const Track& track, std::size_t window, const WindowRanges& all) {
+  Vector row = Vector::Zero(readings + places + speeds + commands);
+  add_hats(track.meter.power_W[window], all.least_W, all.most_W, readings, 1.0, row, 0);
+  const double each = 1.0 / static_cast<double>(track.meter.length);
+  for (Index k = track.meter.starts[window]; k < track.meter.starts[window] + track.meter.length; ++k) {
+    const double v = track.steady_m_per_s[k];
+    add_hats(track.position_m[k], all.low_m, all.high_m, places, each, row, readings);
+    add_hats(std::sqrt(std::abs(v) / all.fastest), 0.0, 1.0, speeds / 2, each, row,
+             readings + places + (v > 0.0 ? 0 : speeds / 2));
+    add_hats(track.held_N[k] / all.strongest_N, -1.0, 1.0, commands, each, row, readings + places + speeds);
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<ReadingRows> rows_of_power(const InverseModel& model) {
+  ReadingRows rows;
+  rows.channel = channel::power_W, rows.rows_of_zero = 2.0;
+  const WindowRanges ranges(model.tracks());
+  std::vector<Vector> columns;
+  std::vector<Eigen::RowVectorXd> numbers;
+  for (const auto& s : model.segments()) {
+    if (!model.equations()[s.equation].power) continue;
+    const Track& track = model.tracks()[s.run];
+    const Eigen::MatrixXd powers = powers_of(track);
+    for (Index i = 0; i < s.size; ++i) {
+      const auto window = static_cast<std::size_t>(i);
+      const double t = static_cast<double>(model.sample_of(s, i)) * track.sample_s;
+      rows.after.push_back(s.start + i);
+      rows.reading.push_back(track.meter.power_W[window]);
+      rows.time_s.push_back(t), rows.run.push_back(s.run);
+      rows.fold.push_back((static_cast<std::size_t>(t / stretch_of_windows_s) + s.run) % power_folds);
+      columns.push_back(column_of_window(track, window, ranges));
+      numbers.push_back(powers.middleRows(track.meter.starts[window], track.meter.length).colwise().mean());
+    }
+  }
+  if (columns.empty()) return {};
+  rows.columns.resize(columns.front().size(), static_cast<Index>(columns.size()));
+  rows.numbers.resize(rows.columns.cols(), numbers.front().size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    rows.columns.col(static_cast<Index>(k)) = columns[k], rows.numbers.row(static_cast<Index>(k)) = numbers[k];
+  for (Index c = 0; c < rows.numbers.cols(); ++c) rows.numbers.col(c) /= std::max(rows.numbers.col(c).norm(), 1e-300);
+  Index from = 0;
+  for (const auto& [follows, width] : {std::pair{Follows::reading, readings},
+                                       {Follows::place, places},
+                                       {Follows::speed, speeds},
+                                       {Follows::motion, commands}}) {
+    AdditiveModel::Columns part;
+    for (Index c = 0; c < width; ++c) part.push_back(from + c);
+    rows.ways.push_back(std::move(part)), rows.follows.push_back(follows);
+    from += width;
+  }
+  return {std::move(rows)};
+}
+
+}  // namespace feedtwin::tools::diagnosis
