@@ -4,7 +4,8 @@
 //   mu of the ball screw times 1 - r - (b - r) exp(-W / E)
 //
 // r = viscous_reduction, E = energy_scale_J, W the work done on the ball screw's friction since the run began, b =
-// initial_reduction: 0 where a run begins cold.
+// initial_reduction: 0 where a run begins cold. thermal_friction_of_all: F_C and F_S of the ball screw too, by r =
+// reduction.
 
 #include <array>
 
@@ -29,10 +30,32 @@ class ThermalFriction final : public Effect {
   double factor_ = 1.0;
 };
 
+class ThermalFrictionOfAll final : public Effect {
+ public:
+  ThermalFrictionOfAll(const EffectContext& /*context*/, const EffectSetting& setting)
+      : change_(-setting.values[0], setting.values[1], -setting.values[2]) {}
+
+  void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.screw_friction_J); }
+
+  void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
+    scale.screw_sliding *= factor_;
+    scale.screw_viscous *= factor_;
+  }
+
+ private:
+  SaturatingChange change_;
+  double factor_ = 1.0;
+};
+
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array thermal_friction_parameters{
     EffectParameter{"viscous_reduction", "1", -2.0, 0.95, {}, 0.0, "share of the viscous friction that is lost when warm; negative: friction rises"},
+    EffectParameter{"energy_scale_J", "J", 0.01, 10000000.0, {}, {}, "friction work after which 63 % of the change is reached"},
+    EffectParameter{"initial_reduction", "1", -2.0, 0.95, 0.0, {}, "share that is lost when a run begins: it begins warm"},
+};
+inline constexpr std::array thermal_friction_of_all_parameters{
+    EffectParameter{"reduction", "1", -2.0, 0.95, {}, 0.0, "share of the friction that is lost when warm; negative: friction rises"},
     EffectParameter{"energy_scale_J", "J", 0.01, 10000000.0, {}, {}, "friction work after which 63 % of the change is reached"},
     EffectParameter{"initial_reduction", "1", -2.0, 0.95, 0.0, {}, "share that is lost when a run begins: it begins warm"},
 };
@@ -49,6 +72,19 @@ inline constexpr EffectEntry thermal_friction{
     .parameters = thermal_friction_parameters,
     .make = make_effect<ThermalFriction>,
     .hooks = hooks_of<ThermalFriction>(),
+};
+
+inline constexpr EffectEntry thermal_friction_of_all{
+    .id = "thermal_friction_of_all",
+    .component = EffectComponent::ball_screw,
+    .work = EffectWork::none,
+    .meaning = "friction of the ball screw, sliding and viscous, falls with the work done against it",
+    .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm temperature_C",
+    .confused_with = "friction_drift thermal_friction torque_gain_error",
+    .exciting_move = "the same fast move repeated for minutes from cold",
+    .parameters = thermal_friction_of_all_parameters,
+    .make = make_effect<ThermalFrictionOfAll>,
+    .hooks = hooks_of<ThermalFrictionOfAll>(),
 };
 
 }  // namespace feedtwin::plant::effects

@@ -188,14 +188,14 @@ std::vector<ReadingRows> rows_of_sensors(const InverseModel& model, double lead_
   const bool torque = first.torque_sensor_N.size() > 0, force = first.force_sensor_N.size() > 0;
   // equations stand in the order of the chain: what is before a sensor, then what is behind it
   const std::size_t last_force = torque + force, behind_torque = 1;
-  all.push_back(rows_of_sensor(model, {channel::torque_cmd_Nm, Nm_per_N, &Track::command_N, 0, {}, 0}, residual));
-  keep_ways(all.back(), {Follows::reading, Follows::reading_before});
   if (torque)
     all.push_back(rows_of_sensor(
         model, {channel::torque_sensor_Nm, Nm_per_N, &Track::torque_sensor_N, behind_torque, 0, behind_torque}, residual));
   if (force)
     all.push_back(rows_of_sensor(
         model, {channel::force_sensor_N, 1.0, &Track::force_sensor_N, last_force, last_force - 1, last_force}, residual));
+  all.push_back(rows_of_sensor(model, {channel::torque_cmd_Nm, Nm_per_N, &Track::command_N, 0, {}, 0}, residual));
+  keep_ways(all.back(), {Follows::reading, Follows::reading_before});
   const auto slip = std::ranges::find_if(model.equations(), &Equation::slip);
   const auto carried = force ? &Track::force_sensor_N : torque ? &Track::torque_sensor_N : &Track::command_N;
   if (slip != model.equations().end())

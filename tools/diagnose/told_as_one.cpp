@@ -51,7 +51,8 @@ void tell_as_one_wave(Diagnosis& result) {
 
 void tell_as_one_change(Diagnosis& result) {
   for (const auto& [first, second] :
-       {std::pair{"thermal_friction", "friction_drift"}, std::pair{"frictional_lag", "frictional_lag_of_velocity"}}) {
+       {std::pair{"thermal_friction", "thermal_friction_of_all"}, std::pair{"thermal_friction", "friction_drift"},
+        std::pair{"thermal_friction_of_all", "friction_drift"}, std::pair{"frictional_lag", "frictional_lag_of_velocity"}}) {
     const auto one = place_of(result, first), other = place_of(result, second);
     if (one == result.effects.end() || other == result.effects.end()) continue;
     const auto &told = one->share >= other->share ? one : other, &beside = one->share >= other->share ? other : one;

@@ -87,6 +87,10 @@ TEST(Laws, ForceAtSteadySpeed) {
        [](const Nominal& n, double, const Steady& s) {
          return n.all_N() - (0.4 - 0.3 * std::exp(-s.screw_work_J / 30.0)) * n.screw_viscous_N;
        }},
+      {{"thermal_friction_of_all", {0.4, 30.0, 0.1}, {}},
+       [](const Nominal& n, double, const Steady& s) {
+         return n.all_N() - (0.4 - 0.3 * std::exp(-s.screw_work_J / 30.0)) * (n.screw_sliding_N + n.screw_viscous_N);
+       }},
       {{"friction_drift", {0.5, 2.0, -0.2}, {}},
        [](const Nominal& n, double, const Steady& s) {
          return n.all_N() + (0.5 - 0.7 * std::exp(-s.time_s / 2.0)) * (n.screw_sliding_N + n.screw_viscous_N);

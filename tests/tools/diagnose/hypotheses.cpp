@@ -21,7 +21,7 @@ namespace {
 using namespace tools::diagnosis;
 
 struct Trial {
-  std::vector<std::pair<std::string_view, double>> truth;  ///< numbers of the plant's effect
+  std::vector<std::pair<std::string_view, double>> truth;  ///< of the plant
   std::vector<double> start;                               ///< working parameters: amplitudes at 0, shapes about the truth
   double tolerance = 0.03;
   bool sensors = true;  ///< of torque and force; false: where the plant simplifies what they see
@@ -34,6 +34,7 @@ const std::map<std::string_view, Trial>& trials() {
       {"torque_ripple", {{{"relative_amplitude", 0.05}, {"cycles_per_rev", 6.0}, {"phase_rad", -1.1}}, {0, 0, 6}}},
       {"rev_ripple",
        {{{"amplitude_N", 5.0}, {"cycles_per_rev", 3.37}, {"phase_rad", 2.0}}, {0, 0, 0, 0, 0, 0, 0, 0, 3.375}}},
+      {"rev_ripple_of_friction", {{{"amplitude_N", 9.0}, {"cycles_per_rev", 2.37}}, {0, 0, 0, 0, 0, 0, 0, 0, 2.375}, 0.05}},
       {"backlash", {{{"gap_m", 6e-6}}, {0, 0, std::log(2e3)}, 0.06}},  // the flank swings: a start for the closed loop
       {"screw_compliance", {{{"stiffness_N_per_m", 3e7}}, {0, std::log(2e3)}}},
       {"position_friction",
@@ -49,6 +50,7 @@ const std::map<std::string_view, Trial>& trials() {
       {"current_loop_lag", {{{"time_constant_s", 2e-3}}, {0}}},
       {"input_delay", {{{"delay_s", 2e-3}}, {0}}},
       {"thermal_friction", {{{"viscous_reduction", 0.3}, {"energy_scale_J", 6.0}}, {0, 5, 0, 0, 0, 0}}},
+      {"thermal_friction_of_all", {{{"reduction", 0.2}, {"energy_scale_J", 6.0}}, {0, 5, 0, 0, 0, 0}}},
       {"friction_drift", {{{"relative_change", -0.3}, {"time_constant_s", 1.2}}, {0, 1, 0, 0, 0, 0}}},
       {"torque_gain_error", {{{"relative_error", -0.1}}, {0}, 0.03, true, true}},
       {"torque_offset", {{{"offset_Nm", 0.012}}, {0}, 0.03, true, true}},

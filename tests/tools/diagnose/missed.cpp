@@ -42,7 +42,15 @@ TEST(NatsToStay, WhatNumbersCouldDoNeedsMoreThanItPutsThemOff) {
   Found explains_most = found("torque_offset");
   explains_most.error_ratio = 5.02;
   EXPECT_DOUBLE_EQ(nats_to_stay(explains_most, -930.0), 1860.0);
-  EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), -930.0), -10.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), -20.0), -10.0);
+}
+
+// A law of speed that was none was missed by -8 nats and put the numbers 150 squared tolerances off; of true names a cogging
+// by 15691 and 107, a stop by 753 and 35.
+TEST(NatsToStay, WhatPutsTheNumbersFarOffNeedsMoreThanThat) {
+  EXPECT_GT(nats_to_stay(found("sublinear_viscous"), -150.0), 100.0);
+  EXPECT_LT(nats_to_stay(found("cogging"), -107.0), 1500.0);
+  EXPECT_LT(nats_to_stay(found("hard_stop"), -35.0), 753.0);
 }
 
 // A lag of the current loop that was missed by 86100 nats left 633 of a warm-up that was none.

@@ -54,7 +54,7 @@ Hypothesis friction_drift() {
           .least_missed_nats = 150.0,
           .follows_any_law = true,
           .least_deviations = deviations_of_numbers,
-          .confused_with = {"thermal_friction"},
+          .confused_with = {"thermal_friction", "thermal_friction_of_all"},
           .state = "initial_change",
           .first_state = first_state,
           .clear_step = least_step,

@@ -8,6 +8,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis cogging();
 [[nodiscard]] Hypothesis torque_ripple();
 [[nodiscard]] Hypothesis rev_ripple();
+[[nodiscard]] Hypothesis rev_ripple_of_friction();
 [[nodiscard]] Hypothesis backlash();
 [[nodiscard]] Hypothesis screw_compliance();
 [[nodiscard]] Hypothesis position_friction();
@@ -18,6 +19,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis current_loop_lag();
 [[nodiscard]] Hypothesis input_delay();
 [[nodiscard]] Hypothesis thermal_friction();
+[[nodiscard]] Hypothesis thermal_friction_of_all();
 [[nodiscard]] Hypothesis friction_drift();
 [[nodiscard]] Hypothesis torque_gain_error();
 [[nodiscard]] Hypothesis torque_offset();

@@ -1,5 +1,5 @@
 // Warm-up: the screw's viscous friction times 1 - r - (b - r) exp(-E / E_0), E the work done on it since the start of the
-// run, b what it had lost by then: a run may begin warm.
+// run, b what it had lost by then: a run may begin warm. Or all of the screw's friction, sliding and viscous.
 
 #include <cmath>
 
@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t first_state = 2;
 
-void apply(const View& view, std::span<const double> q, Contribution& sum) {
+/// @param of_all sliding friction falls too
+Vector warmed(const View& view, std::span<const double> q, bool of_all) {
   const Track& track = view.track;
   const auto& screw = view.ball_screw();
   Vector factor(track.size);
@@ -24,13 +25,28 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
     factor[k] = 1.0 - q[0] - (before - q[0]) * plant::exp_of_minus(work_J / q[1]);
     const double sliding = screw.coulomb_N.*side + (screw.static_N.*side - screw.coulomb_N.*side) *
                                                        plant::exp_of_minus(speed / screw.stribeck_m_per_s.*side);
-    work_J += (sliding + factor[k] * screw.viscous_Ns_per_m.*side * speed) * speed * track.sample_s;
+    work_J +=
+        ((of_all ? factor[k] : 1.0) * sliding + factor[k] * screw.viscous_Ns_per_m.*side * speed) * speed * track.sample_s;
   }
+  return factor;
+}
+
+void apply(const View& view, std::span<const double> q, Contribution& sum) {
+  scale(sum.screw_viscous, warmed(view, q, false));
+}
+
+void apply_to_all(const View& view, std::span<const double> q, Contribution& sum) {
+  const Vector factor = warmed(view, q, true);
+  scale(sum.screw_sliding, factor);
   scale(sum.screw_viscous, factor);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   return {{"viscous_reduction", q[0]}, {"energy_scale_J", q[1]}};
+}
+
+std::vector<NamedValue> named_of_all(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  return {{"reduction", q[0]}, {"energy_scale_J", q[1]}};
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -62,6 +78,18 @@ Hypothesis thermal_friction() {
           .state = "initial_reduction",
           .first_state = first_state,
           .friction = true};
+}
+
+Hypothesis thermal_friction_of_all() {
+  Hypothesis law = thermal_friction();
+  law.id = "thermal_friction_of_all";
+  law.told_as = "thermal_friction";
+  law.parameters.front().name = "reduction";
+  law.apply = apply_to_all;
+  law.named = named_of_all;
+  law.sentence = "the screw warms up: its friction falls by {reduction} of itself within {energy_scale_J} J of work";
+  law.confused_with.emplace_back("thermal_friction");
+  return law;
 }
 
 }  // namespace feedtwin::tools::diagnosis
