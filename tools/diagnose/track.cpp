@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "tools/identify/whitening.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
@@ -141,6 +143,27 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s, const MeterHa
   return meter;
 }
 
+/// A scale's noise is the table's motion to whoever believes it: 1 um of it is 2 m/s^2 and more at 1 kHz. What the table
+/// does beside the motor is then taken over as many samples (Hann) as bring its acceleration down to what the encoder's grid
+/// has.
+Vector as_quiet_as(const Vector& slip_m, double count_m) {
+  constexpr std::size_t longest = 41;
+  const double noise_m = white_sigma({slip_m.data(), static_cast<std::size_t>(slip_m.size())});
+  const double grid_m = count_m / std::sqrt(12.0), of_grid = std::sqrt(6.0);  // that a second difference leaves of it
+  for (std::size_t taps = 1;; taps += 2) {
+    Vector kernel(static_cast<Index>(taps));
+    for (Index i = 0; i < kernel.size(); ++i)
+      kernel[i] = std::pow(std::sin(std::numbers::pi * static_cast<double>(i + 1) / static_cast<double>(taps + 1)), 2);
+    kernel /= kernel.sum();
+    Vector padded = Vector::Zero(kernel.size() + 4);
+    padded.segment(2, kernel.size()) = kernel;
+    const Vector twice =
+        padded.tail(kernel.size() + 2) - 2.0 * padded.segment(1, kernel.size() + 2) + padded.head(kernel.size() + 2);
+    if (taps < longest && noise_m * twice.norm() > of_grid * grid_m) continue;
+    return taps == 1 ? slip_m : convolved(slip_m, {kernel.data(), taps});
+  }
+}
+
 }  // namespace
 
 Vector about_sample(const Vector& after) {
@@ -177,8 +200,8 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
   track.table_acceleration_m_per_s2 = track.acceleration_m_per_s2;
   track.table_path_m_per_s = track.path_m_per_s;
   if (recording.has(channel::scale_position_m)) {
-    const Vector table = as_vector(recording.at(channel::scale_position_m));
-    track.slip_m = table - x;
+    track.slip_m = as_vector(recording.at(channel::scale_position_m)) - x;
+    const Vector table = x + as_quiet_as(track.slip_m, count_m);
     track.table_position_m = smoothed(table);
     track.table_velocity_m_per_s.head(n - 1) = (track.table_position_m.tail(n - 1) - track.table_position_m.head(n - 1)) / h;
     track.table_acceleration_m_per_s2 = second_difference(table, h);

@@ -11,24 +11,22 @@
 
 namespace feedtwin::tools::diagnosis {
 
-/// What the table's numbers (mass; Coulomb, static and viscous friction both ways) have in common.
+/// What the table's mass and friction (all of it, at the speeds of the runs, both ways) have in common.
 struct CommonShift {
-  double factor = 1.0;           ///< of the axis file's, their geometric mean
+  double factor = 1.0;           ///< of the axis file's, the geometric mean of both
   double fall = 0.0;             ///< of the squared deviations from the file, in tolerances, without it
   bool of_all_together = false;  ///< beyond a tolerance, the mass as well, and without it they are as the file has them
 
   /// May it come of a sensor with this gain? Polished, a gain may end far from it, for what else the model simplifies.
   [[nodiscard]] bool stands_for(double gain) const;
 };
-/// @param covariance of the base parameters, in tolerances: a number of which the runs tell nothing has no say
-[[nodiscard]] CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis,
-                                       const Eigen::MatrixXd& covariance);
+[[nodiscard]] CommonShift common_shift(const Fitter& fitter, const plant::AxisParameters& axis);
 
 /// The axis with so many times less of the table, and with what that takes given to the screw: the same to the motor,
 /// but for the damping of the bristles, of which the screw may have none to give.
 [[nodiscard]] plant::AxisParameters with_table_less(plant::AxisParameters axis, double times);
 
-/// Names the gain where the numbers have such a shift and the runs are as likely with numbers near nominal and a gain of
+/// Names the gain where the numbers have such a shift and the runs are nearly as likely with numbers near nominal and a gain of
 /// about that size.
 /// @return the fit's model as the closed loop has it where the gain was added; otherwise as it was given
 std::optional<Ruling> ask_for_gain_in_numbers(const ForwardModel& forward, const Fitter& fitter, SearchResult& found,
