@@ -123,7 +123,9 @@ struct Errors {
 
 /// Of a diagnosis on laps that it was not fitted to, with what it names printed.
 Errors errors_of(const Case& data) {
-  const auto found = diagnose(data, [](std::string_view) {});
+  const auto found = diagnose(data, [](std::string_view l) {
+    if (std::getenv("EMPSLOG")) fmt::print(stderr, "{}\n", l);
+  });
   const auto& torque = found.holdout.at("torque_cmd_Nm");
   const Errors errors{torque.after, torque.recalibrated, found.holdout_inverse.at("torque_cmd_Nm").after,
                       found.force_error.after, found.force_error.recalibrated};
