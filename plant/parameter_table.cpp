@@ -52,7 +52,7 @@ constexpr std::array table{
     ParameterEntry{"guide.sigma0_N_per_m", [](P& p) -> double& { return p.guide.stiffness_N_per_m; }, 1.0, 1e12, {}, "sigma_0, bristle stiffness"},
     ParameterEntry{"guide.sigma1_Ns_per_m", [](P& p) -> double& { return p.guide.damping_Ns_per_m; }, 0.0, 1e9, {}, "sigma_1, bristle damping"},
     ParameterEntry{"power.meter_window_s", [](P& p) -> double& { return p.power_meter_window_s; }, 1e-3, 10.0, 0.1, "the power meter shows the mean of each window"},
-    ParameterEntry{"power.meter_readings", [](P& p) -> double& { return p.power_meter_readings; }, 1.0, 64.0, 1.0, "readings that a window spans: windows overlap where it is more than one"},
+    ParameterEntry{"power.meter_readings", [](P& p) -> double& { return p.power_meter_readings; }, 0.01, 64.0, 1.0, "readings that a window spans: windows overlap where it is more than one, and do not meet where it is less"},
 };
 // clang-format on
 

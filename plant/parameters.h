@@ -59,7 +59,7 @@ struct AxisParameters {
   double guide_mass_kg = 0.0;  ///< M_L, table with the guide's blocks
   LugreParameters guide;
   double power_meter_window_s = 0.1;   ///< the source's meter: 10 readings a second
-  double power_meter_readings = 1.0;   ///< readings that a window spans: windows overlap where it is more than one
+  double power_meter_readings = 1.0;   ///< that a window spans: windows overlap where it is more than one
   std::vector<EffectSetting> effects;  ///< physics beyond Eq. 1 that is switched on (plant/effects/registry.h)
   bool operator==(const AxisParameters&) const = default;
 };

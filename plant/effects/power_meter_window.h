@@ -20,7 +20,7 @@ inline void power_meter_window_adapt(AxisParameters& axis, const EffectSetting& 
 // clang-format off: a line a parameter
 inline constexpr std::array power_meter_window_parameters{
     EffectParameter{"window_s", "s", 0.001, 10.0, {}, 0.1, "length of a window"},
-    EffectParameter{"readings", "1", 1.0, 64.0, 1.0, {}, "readings that a window spans: windows overlap where it is more than one"},
+    EffectParameter{"readings", "1", 0.01, 64.0, 1.0, {}, "readings that a window spans: windows overlap where it is more than one, and do not meet where it is less"},
 };
 // clang-format on
 

@@ -48,6 +48,19 @@ TEST(PowerMeter, AWindowMaySpanSeveralReadings) {
   }
 }
 
+TEST(PowerMeter, AWindowMayBeTheLastPartBeforeAReading) {
+  PowerMeter meter(0.075, 0.75);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> power(-100.0, 500.0);
+  std::vector<double> all;
+  for (int i = 0; i < 5000; ++i) {
+    all.push_back(power(random));
+    const double reading = meter.update(all.back(), 1e-3);
+    if (all.size() % 100 != 0) continue;
+    ASSERT_NEAR(reading, std::accumulate(all.end() - 75, all.end(), 0.0) / 75.0, 1e-9) << i;
+  }
+}
+
 TEST(PowerMeter, WindowsDoNotDriftWithTicksThatDoNotDivideThem) {
   PowerMeter meter(0.1);
   double last = 0.0;

@@ -91,7 +91,7 @@ std::optional<SetupFault> mend_meter(const Recording& recording, plant::AxisPara
   const MeteredPower meter = metered_rows(recording, axis);
   if (meter.window == 1) return std::nullopt;
   const double shown_s = static_cast<double>(meter.window) * recording.sample_s, half_a_sample_s = 0.5 * recording.sample_s;
-  const auto readings = static_cast<double>(recording.meter.readings_a_window);
+  const double readings = recording.meter.readings_a_window;
   double &configured_s = axis.power_meter_window_s, &configured_readings = axis.power_meter_readings;
   if (std::abs(shown_s - configured_s) < 3.0 * half_a_sample_s && readings == configured_readings) return std::nullopt;
   SetupFault fault{
@@ -100,8 +100,9 @@ std::optional<SetupFault> mend_meter(const Recording& recording, plant::AxisPara
       std::string(channel::power_W),
       fmt::format("the power meter averages over {:.3g} s, not over {:.3g} s as configured", shown_s, configured_s),
       {{"window_s", shown_s, half_a_sample_s}}};
-  if (readings > 1.0) {
-    fault.sentence += fmt::format("; each of its windows spans {:.0f} readings", readings);
+  if (readings != 1.0) {
+    fault.sentence += readings > 1.0 ? fmt::format("; each of its windows spans {:.0f} readings", readings)
+                                     : fmt::format(", the last {:.0f} % before each reading", 100.0 * readings);
     fault.parameters.push_back({"readings", readings, 0.0});
   }
   fault.sentence += ".";

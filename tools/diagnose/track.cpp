@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tools/identify/whitening.h"
+#include "tools/recording/power_meter.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -112,7 +113,7 @@ void follow_reversals(Track& track) {
 
 /// A meter that holds its reading shows, from the end of a window on, the mean over that window.
 MeterWindows meter_windows(const Vector& power_W, double sample_s, const MeterHabit& habit) {
-  const auto delay = static_cast<Index>(habit.delay), readings = static_cast<Index>(habit.readings_a_window);
+  const auto delay = static_cast<Index>(habit.delay);
   std::vector<Index> changes;
   for (Index k = 1; k < power_W.size(); ++k)
     if (power_W[k] != power_W[k - 1]) changes.push_back(k);
@@ -133,7 +134,7 @@ MeterWindows meter_windows(const Vector& power_W, double sample_s, const MeterHa
   meter.held = true;
   const Index phase = changes.empty() ? 0 : changes.front() % meter.length;
   const Index every = meter.length;
-  meter.length *= readings;
+  meter.length = static_cast<Index>(ticks_of_window(static_cast<std::size_t>(every), habit.readings_a_window));
   for (Index k = phase; k + every < power_W.size(); k += every) {
     const Index start = k + 1 - delay + every - meter.length;
     if (start < 0) continue;

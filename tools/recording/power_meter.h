@@ -27,6 +27,9 @@ struct MeteredPower {
   [[nodiscard]] std::size_t first_tick(std::size_t row) const { return row + 1 - window - delay; }
 };
 
+/// Ticks of a window that spans so many readings.
+[[nodiscard]] std::size_t ticks_of_window(std::size_t ticks_between, double readings);
+
 /// @param expected_window ticks, for a meter that shows too few different readings to tell its own; 0: unknown
 [[nodiscard]] MeteredPower metered_rows(std::span<const double> power_W, std::size_t expected_window = 0);
 /// Of a recording, which may have no power: with the window that the axis file states and the recording's delay.

@@ -19,10 +19,11 @@ namespace {
 using namespace tools::diagnosis;
 using tools::Case;
 
-Case recorded_with(const plant::AxisParameters& truth) {
+Case recorded_with(const plant::AxisParameters& truth, double duration_s = 4.0) {
   Case data;
   data.axis = plant::source_axis();
-  data.fit = {tests::make_recording(truth, {.motion = "sine", .duration_s = 4.0, .sensors = true, .scale_at_table = true})};
+  data.fit = {
+      tests::make_recording(truth, {.motion = "sine", .duration_s = duration_s, .sensors = true, .scale_at_table = true})};
   return data;
 }
 
@@ -238,18 +239,19 @@ TEST(SetupChecks, LossesAtAMarkOrOfManySizesAreNoneOfTheirOwn) {
 }
 
 TEST(SetupChecks, AMetersWindowIsKnownToHalfASampleAndWhetherItsWindowsOverlap) {
-  for (const double readings : {1.0, 2.0}) {
+  for (const double readings : {1.0, 2.0, 0.75}) {
     auto truth = plant::source_axis();
-    truth.power_meter_window_s = 0.2, truth.power_meter_readings = readings;
-    Case data = recorded_with(truth);
+    const double window_s = readings < 1.0 ? 0.15 : 0.2;
+    truth.power_meter_window_s = window_s, truth.power_meter_readings = readings;
+    Case data = recorded_with(truth, 12.0);
     data.fit[0].meter = tools::meter_habit(data.fit, data.axis);
     const auto faults = mend_setup(data);
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0].id, "power_meter_window");
-    EXPECT_NEAR(faults[0].parameters[0].value, 0.2, 1e-12);
+    EXPECT_NEAR(faults[0].parameters[0].value, window_s, 1e-12);
     EXPECT_EQ(faults[0].parameters[0].half_width, 0.5e-3);
-    EXPECT_EQ(faults[0].parameters.size(), readings > 1.0 ? 2U : 1U);
-    EXPECT_NEAR(data.axis.power_meter_window_s, 0.2, 1e-12);
+    EXPECT_EQ(faults[0].parameters.size(), readings != 1.0 ? 2U : 1U);
+    EXPECT_NEAR(data.axis.power_meter_window_s, window_s, 1e-12);
     EXPECT_EQ(data.axis.power_meter_readings, readings);
     EXPECT_TRUE(mend_setup(data).empty()) << "mended";
   }
