@@ -12,7 +12,7 @@ constexpr Index least_rows_a_column = 5;
 }  // namespace
 
 PowerStructure::PowerStructure(const InverseModel& model) {
-  for (auto& power : rows_of_power(model))
+  for (auto& power : rows_of_power(model, Vector::Zero(model.rows())))
     if (power.numbers.rows() >= least_rows_a_column * power.numbers.cols()) rows_ = std::move(power);
 }
 

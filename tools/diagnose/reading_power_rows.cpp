@@ -37,9 +37,9 @@ struct WindowRanges {
 };
 
 /// Means over a window, and what is read over it.
-Vector column_of_window(const Track& track, std::size_t window, const WindowRanges& all) {
+Vector column_of_window(const Track& track, std::size_t window, double reading_W, const WindowRanges& all) {
   Vector row = Vector::Zero(readings + places + speeds + commands);
-  add_hats(track.meter.power_W[window], all.least_W, all.most_W, readings, 1.0, row, 0);
+  add_hats(reading_W, all.least_W, all.most_W, readings, 1.0, row, 0);
   const double each = 1.0 / static_cast<double>(track.meter.length);
   for (Index k = track.meter.starts[window]; k < track.meter.starts[window] + track.meter.length; ++k) {
     const double v = track.steady_m_per_s[k];
@@ -53,7 +53,7 @@ Vector column_of_window(const Track& track, std::size_t window, const WindowRang
 
 }  // namespace
 
-std::vector<ReadingRows> rows_of_power(const InverseModel& model) {
+std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& residual) {
   ReadingRows rows;
   rows.channel = channel::power_W, rows.rows_of_zero = 2.0;
   const WindowRanges ranges(model.tracks());
@@ -67,10 +67,10 @@ std::vector<ReadingRows> rows_of_power(const InverseModel& model) {
       const auto window = static_cast<std::size_t>(i);
       const double t = static_cast<double>(model.sample_of(s, i)) * track.sample_s;
       rows.after.push_back(s.start + i);
-      rows.reading.push_back(track.meter.power_W[window]);
+      rows.reading.push_back(track.meter.power_W[window] - residual[s.start + i]);
       rows.time_s.push_back(t), rows.run.push_back(s.run);
       rows.fold.push_back((static_cast<std::size_t>(t / stretch_of_windows_s) + s.run) % power_folds);
-      columns.push_back(column_of_window(track, window, ranges));
+      columns.push_back(column_of_window(track, window, rows.reading.back(), ranges));
       numbers.push_back(powers.middleRows(track.meter.starts[window], track.meter.length).colwise().mean());
     }
   }

@@ -97,8 +97,7 @@ void keep_ways(ReadingRows& rows, std::initializer_list<Follows> kept) {
 }
 
 /// A row a moment: what the numbers do, the reading itself, the place, and what each run starts with.
-Eigen::MatrixXd numbers_of(const std::vector<Moment>& moments, const ReadingRows& rows, std::size_t runs,
-                           const Vector& misfit) {
+Eigen::MatrixXd numbers_of(const std::vector<Moment>& moments, const ReadingRows& rows, std::size_t runs) {
   std::vector<double> accelerations, velocities;
   for (const auto& m : moments) accelerations.push_back(m.acceleration_m_per_s2), velocities.push_back(m.velocity_m_per_s);
   const Eigen::MatrixXd own = columns_of_numbers(accelerations, velocities);
@@ -106,7 +105,7 @@ Eigen::MatrixXd numbers_of(const std::vector<Moment>& moments, const ReadingRows
   all.leftCols(own.cols()) = own;
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const auto row = static_cast<Index>(k);
-    all(row, own.cols()) = rows.reading[k] - (rows.acts ? misfit[rows.after[k]] : 0.0);  // what it is by the model
+    all(row, own.cols()) = rows.reading[k];
     if (rows.channel == channel::scale_position_m) all(row, own.cols() + 1) = moments[k].position_m;
     all(row, own.cols() + 2 + static_cast<Index>(moments[k].run)) = 1.0;
   }
@@ -131,14 +130,15 @@ struct Sensor {
   std::size_t carries_from;
 };
 
-/// What a row of it should read: the command as it is, a sensor less what it shows more than the model.
+/// What a row of it should read: less what it shows more than the model. With that, noise would follow itself: a force that
+/// disturbs the axis is in the command too, and on an axis with nothing hidden 0.29 of it followed "steps" of the command.
 double should_read(const InverseModel& model, const Sensor& sensor, std::size_t run, Index row, const Vector& recorded,
                    const Vector& residual) {
   double read = 0.0;
   for (const auto& s : model.segments()) {
     const auto& e = model.equations()[s.equation];
     if (s.run == run && s.equation >= sensor.carries_from && !e.slip && !e.power) read += recorded[s.start + row];
-    if (s.run == run && s.equation == sensor.after && sensor.before) read -= residual[s.start + row];
+    if (s.run == run && s.equation == sensor.after && !e.slip) read -= residual[s.start + row];
   }
   return read;
 }
@@ -147,7 +147,6 @@ ReadingRows rows_of_sensor(const InverseModel& model, const Sensor& sensor, cons
   ReadingRows rows;
   rows.channel = sensor.channel, rows.per_unit = sensor.per_unit;
   rows.of_force = !model.equations()[sensor.after].slip;
-  rows.acts = rows.of_force && !sensor.before;
   const Vector recorded = model.recorded();
   std::vector<Moment> moments;
   std::vector<std::array<double, before_s.size()>> earlier;
@@ -175,7 +174,7 @@ ReadingRows rows_of_sensor(const InverseModel& model, const Sensor& sensor, cons
     rows.columns.col(static_cast<Index>(k)) = column;
   }
   tell_ways(rows);
-  rows.numbers = numbers_of(moments, rows, model.tracks().size(), residual);
+  rows.numbers = numbers_of(moments, rows, model.tracks().size());
   return rows;
 }
 

@@ -26,7 +26,7 @@ enum class Follows {
 
 struct ReadingRows {
   std::string_view channel;
-  bool of_force = false, acts = false;  ///< acts: the command
+  bool of_force = false;
   double per_unit = 1.0;                ///< the misfit's unit in the channel's
   std::vector<Index> after, before;     ///< the model's rows that it adds to, and takes from
   std::vector<double> reading, time_s;  ///< of each row; likewise below
@@ -40,7 +40,7 @@ struct ReadingRows {
 
 /// Of the torque sensor, the force sensor, the command and the scale; those that are recorded. @param residual the model's
 [[nodiscard]] std::vector<ReadingRows> rows_of_sensors(const InverseModel& model, double lead_m, const Vector& residual);
-/// Of the power meter, one window a row; none where it was not recorded.
-[[nodiscard]] std::vector<ReadingRows> rows_of_power(const InverseModel& model);
+/// Of the power meter, one window a row; none where it was not recorded. @param residual likewise
+[[nodiscard]] std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& residual);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -100,7 +100,7 @@ std::vector<ReadingStructure> structure_of_readings(const InverseModel& model, c
   const Vector residual = model.residual(at.axis, at.effects);
   std::vector<ReadingStructure> all;
   auto channels = rows_of_sensors(model, at.axis.axis.lead_m, residual);
-  for (auto& power : rows_of_power(model))
+  for (auto& power : rows_of_power(model, residual))
     if (!model.tracks().front().meter.of_command) channels.push_back(std::move(power));
   for (const auto& rows : channels)
     if (rows.columns.cols() >= least_readings) all.push_back(structure_of_reading(rows, residual));

@@ -30,7 +30,8 @@ struct ReadingStructure {
 /// Channel by channel: sensors, command, scale, power.
 [[nodiscard]] std::vector<ReadingStructure> structure_of_readings(const InverseModel& model, const Candidate& at);
 
-/// The first that stands out, if any does: a sensor, which two equations tell, before the command, which shows in the power too.
+/// The first that stands out, if any does: a sensor, which two equations tell, before the command, which shows in the power
+/// too.
 [[nodiscard]] std::optional<ReadingStructure> what_stands_out(const InverseModel& model, const Candidate& at,
                                                               const std::function<void(std::string_view)>& progress);
 

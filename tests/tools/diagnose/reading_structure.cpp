@@ -88,7 +88,7 @@ TEST(ReadingStructure, ACoarseConverterStepsInWhatIsRead) {
 }
 
 TEST(ReadingStructure, WhatActsIsNotWhatWasCommandedStepByStep) {
-  constexpr double step_Nm = 0.03, size_Nm = 0.006;
+  constexpr double step_Nm = 0.03, size_Nm = 0.004;
   constexpr double with_torques_of_all_sizes_m_per_s = 0.2;
   const Told told = told_of(
       [](tools::Recording& run) {
