@@ -18,13 +18,12 @@
 #include <vector>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/table.h"
 
 namespace feedtwin::plant::effects {
 
 class LearnedResidual final : public Effect {
  public:
-  static constexpr std::size_t most_points = 256;
-
   LearnedResidual(const EffectContext& /*context*/, const EffectSetting& setting)
       : over_(!setting.lists[0].empty()   ? 0
               : !setting.lists[1].empty() ? 1
@@ -42,8 +41,7 @@ class LearnedResidual final : public Effect {
         std::count_if(setting.lists.begin(), setting.lists.begin() + 3, [](const auto& l) { return !l.empty(); });
     if (given != 1) return "expected exactly one of position_m, velocity_m_per_s and since_reversal_s";
     const auto& at = *std::find_if(setting.lists.begin(), setting.lists.end(), [](const auto& l) { return !l.empty(); });
-    if (at.size() > most_points) return "more than " + std::to_string(most_points) + " points";
-    if (std::adjacent_find(at.begin(), at.end(), std::greater_equal<>{}) != at.end()) return "the points must ascend";
+    if (auto wrong = problem_of_table(at); !wrong.empty()) return wrong;
     if (setting.lists[3].size() != at.size()) return "force_pos_N must have one number for each point";
     for (const auto& [list, name] :
          {std::pair{4, "force_neg_N"}, {5, "damping_pos_Ns_per_m"}, {6, "damping_neg_Ns_per_m"}}) {
@@ -63,7 +61,7 @@ class LearnedResidual final : public Effect {
     const double where = over_ == 0   ? m.position_m + 0.5 * m.velocity_m_per_s * m.h_s
                          : over_ == 1 ? std::abs(m.velocity_m_per_s)
                                       : since_s_ + 0.5 * m.h_s;
-    const Place place = find(where);
+    const TablePlace place = place_in(at_, where);
     const double speed = std::abs(m.velocity_m_per_s);
     const double forth_Ns_per_m = on_line(pos_Ns_per_m_, place), back_Ns_per_m = on_line(neg_Ns_per_m_, place);
     const double forth_N = on_line(pos_N_, place) + forth_Ns_per_m * speed;
@@ -85,19 +83,6 @@ class LearnedResidual final : public Effect {
 
  private:
   static constexpr double turning_m = 2e-6;
-  struct Place {
-    std::size_t below, above;
-    double share;
-  };
-  [[nodiscard]] Place find(double where) const noexcept {
-    const auto above = static_cast<std::size_t>(std::upper_bound(at_.begin(), at_.end(), where) - at_.begin());
-    if (above == 0) return {0, 0, 0.0};
-    if (above == at_.size()) return {above - 1, above - 1, 0.0};
-    return {above - 1, above, (where - at_[above - 1]) / (at_[above] - at_[above - 1])};
-  }
-  [[nodiscard]] static double on_line(const std::vector<double>& values, const Place& p) noexcept {
-    return values[p.below] + p.share * (values[p.above] - values[p.below]);
-  }
 
   int over_;
   std::vector<double> at_, pos_N_, neg_N_, pos_Ns_per_m_, neg_Ns_per_m_;

@@ -22,7 +22,9 @@
 #include "plant/effects/hidden_friction_compensation.h"
 #include "plant/effects/input_delay.h"
 #include "plant/effects/lead_error.h"
+#include "plant/effects/learned_command.h"
 #include "plant/effects/learned_mode.h"
+#include "plant/effects/learned_reading.h"
 #include "plant/effects/learned_residual.h"
 #include "plant/effects/load_dependent_friction.h"
 #include "plant/effects/local_friction.h"
@@ -57,6 +59,7 @@ using namespace effects;
 // clang-format off: a line an effect
 constexpr std::array table{
     wrong_sign,
+    learned_command,
     hidden_friction_compensation,
     torque_offset,
     input_delay,
@@ -101,6 +104,7 @@ constexpr std::array table{
     copper_loss,
     regeneration_clipped,
     power_meter_window,
+    learned_reading,
     sensor_gain,
     channel_skew,
 };

@@ -10,7 +10,7 @@ namespace feedtwin::plant {
 struct EffectSetting {
   std::string id;
   std::vector<double> values;              ///< one for each scalar parameter
-  std::vector<std::vector<double>> lists;  ///< one for each list parameter (learned_residual alone has any)
+  std::vector<std::vector<double>> lists;  ///< one for each list parameter (learned tables alone have any)
 
   bool operator==(const EffectSetting&) const = default;
 };

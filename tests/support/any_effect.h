@@ -66,6 +66,19 @@ inline EffectSetting any_setting(const EffectEntry& entry, std::mt19937& seeds) 
       if (random() % 2 == 0)
         for (int i = 0; i < points; ++i) setting.lists[list].push_back(damping(random));
   }
+  if (entry.id == "learned_reading" || entry.id == "learned_command") {
+    const bool command = entry.id == "learned_command";
+    setting.lists.resize(command ? 2 : 8);
+    const auto over = command ? 0 : std::uniform_int_distribution<std::size_t>(0, 3)(random);
+    const auto adds_to = command ? 1 : std::uniform_int_distribution<std::size_t>(4, 7)(random);
+    const int points = std::uniform_int_distribution<int>(1, 20)(random);
+    std::uniform_real_distribution<double> step(1e-6, 0.05), added(-1e-3, 1e-3);
+    double at = over == 3 ? 0.0 : -0.3;
+    for (int i = 0; i < points; ++i)
+      setting.lists[over].push_back(at += step(random)), setting.lists[adds_to].push_back(added(random));
+    setting.values.front() =
+        random() % 2 == 0 ? 0.0 : setting.lists[over].back() - setting.lists[over].front() + step(random);
+  }
   return setting;
 }
 

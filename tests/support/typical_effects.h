@@ -65,6 +65,9 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
             {},
             {{-0.05, 0.0, 0.05}, {}, {}, {4.0, 9.0, 2.0}, {-5.0, -1.0, -6.0}, {20.0, 60.0, 10.0}, {-30.0, 0.0, -40.0}}};
   }
+  if (entry.id == "learned_reading")
+    return {"learned_reading", {0.0}, {{-0.05, 0.0, 0.05}, {}, {}, {}, {}, {2.0, -3.0, 1.0}, {}, {}}};
+  if (entry.id == "learned_command") return {"learned_command", {0.05}, {{0.0, 0.02, 0.04}, {0.002, -0.004, 0.003}}};
   const auto found = values.find(entry.id);
   if (found == values.end()) throw std::logic_error("no typical setting of " + std::string(entry.id));
   return {std::string(entry.id), found->second, {}};

@@ -134,18 +134,10 @@ class Diagnosing {
   /// With the numbers as the closed loop has them, where it was asked.
   [[nodiscard]] const Candidate& as_settled() const { return settled_ ? settled_->model : fit_.model; }
 
-  /// A name that the closed loop gave may leave the inverse model with numbers that simulate nothing well; by those no other
-  /// name can be judged.
-  [[nodiscard]] bool is_far_behind_settled() const {
-    constexpr double far = 2.0;
-    if (!settled_) return false;
-    const auto inverse = forward_.nrmse(extended(fit_.model)), closed_loop = forward_.nrmse(extended(settled_->model));
-    return std::ranges::any_of(inverse, [&](const auto& of) { return of.second > far * closed_loop.at(of.first); });
-  }
-
-  /// What was named in place of a name that came later goes.
+  /// What was named in place of a name that came later goes. A name that the closed loop gave may leave the inverse model
+  /// with numbers that simulate nothing well; by those no other can be judged.
   void ask_the_others_again() {
-    if (is_far_behind_settled()) return;
+    if (settled_ && is_far_behind(forward_, fit_.model, settled_->model)) return;
     const std::size_t before = fit_.model.effects.size();
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
     if (fit_.model.effects.size() < before) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
@@ -208,6 +200,7 @@ class Diagnosing {
   void tell_what_is_unknown() {
     if (!unknown_ && !anything_missing(result_) && (result_.unknown_reading = what_stands_out(model_, told_, progress_))) {
       result_.verdict = "unknown";
+      result_.updated = with_reading(forward_, told_, *result_.unknown_reading, result_.updated);
       return result_.suspects.clear();
     }
     Learned learned = learn_remainder(model_, told_);

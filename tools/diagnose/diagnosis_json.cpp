@@ -56,7 +56,8 @@ json of(const ReadingStructure& reading) {
   json out = {{"channel", reading.channel},
               {"follows", what_it_follows(reading)},
               {"remainder", reading.remainder},
-              {"share_unseen", reading.share}};
+              {"share_unseen", reading.share},
+              {"in_updated_axis", reading.in_plant}};
   if (reading.every > 0.0) out["every"] = reading.every;
   return out;
 }

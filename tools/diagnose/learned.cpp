@@ -7,11 +7,15 @@
 #include <numeric>
 
 #include "plant/effects/registry.h"
+#include "plant/effects/table.h"
 #include "tools/diagnose/remainder.h"
 #include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
+
+using plant::effects::on_line;
+using plant::effects::place_in;
 
 constexpr std::size_t fewest_to_learn = 200, fewest_to_judge = 50;
 
@@ -45,25 +49,12 @@ std::vector<double> points_for(const Remainder& rows, Where axis) {
   return points;
 }
 
-/// Weights of the two points about x, constant beyond the ends.
-std::pair<Index, double> between(const std::vector<double>& points, double x) {
-  const auto above = std::ranges::upper_bound(points, x);
-  if (above == points.begin()) return {0, 0.0};
-  if (above == points.end()) return {static_cast<Index>(points.size()) - 2, 1.0};
-  const auto i = static_cast<std::size_t>(above - points.begin()) - 1;
-  return {static_cast<Index>(i), (x - points[i]) / (points[i + 1] - points[i])};
-}
-
-double on_line(const std::vector<double>& values, Index i, double share) {
-  const auto at = static_cast<std::size_t>(i);
-  return values.empty() ? 0.0 : (1.0 - share) * values[at] + share * values[at + 1];
-}
-
 double read(const Learned& table, double x, double v) {
-  const auto [i, share] = between(table.points, x);
+  const auto place = place_in(table.points, x);
   const bool forth = v > 0.0;
-  return on_line(forth ? table.force_pos_N : table.force_neg_N, i, share) +
-         on_line(forth ? table.damping_pos_Ns_per_m : table.damping_neg_Ns_per_m, i, share) * std::abs(v);
+  const auto& damping = forth ? table.damping_pos_Ns_per_m : table.damping_neg_Ns_per_m;
+  const double force_N = on_line(forth ? table.force_pos_N : table.force_neg_N, place);
+  return damping.empty() ? force_N : force_N + on_line(damping, place) * std::abs(v);
 }
 
 double rms(const std::vector<double>& values) {
@@ -84,10 +75,11 @@ Learned learn(const Remainder& rows, const TableKind& kind) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const double v = rows.velocity_m_per_s[k];
       if ((v > 0.0) != forth) continue;
-      const auto [i, share] = between(table.points, argument(rows, kind.axis, k));
+      const auto [below, above, share] = place_in(table.points, argument(rows, kind.axis, k));
+      const auto i = static_cast<Index>(below), j = static_cast<Index>(above);
       const double speeds = std::abs(v) / usual_m_per_s;
       const std::pair<Index, double> row[] = {
-          {i, 1.0 - share}, {i + 1, share}, {n + i, (1.0 - share) * speeds}, {n + i + 1, share * speeds}};
+          {i, 1.0 - share}, {j, share}, {n + i, (1.0 - share) * speeds}, {n + j, share * speeds}};
       for (int a = 0; a < (kind.damped ? 4 : 2); ++a) {
         for (int b = 0; b < (kind.damped ? 4 : 2); ++b) normal(row[a].first, row[b].first) += row[a].second * row[b].second;
         right[row[a].first] += row[a].second * rows.force_N[k];

@@ -69,6 +69,8 @@ std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& 
       rows.after.push_back(s.start + i);
       rows.reading.push_back(track.meter.power_W[window] - residual[s.start + i]);
       rows.time_s.push_back(t), rows.run.push_back(s.run);
+      rows.position_m.push_back(track.position_m.segment(track.meter.starts[window], track.meter.length).mean());
+      rows.velocity_m_per_s.push_back(track.steady_m_per_s.segment(track.meter.starts[window], track.meter.length).mean());
       rows.fold.push_back((static_cast<std::size_t>(t / stretch_of_windows_s) + s.run) % power_folds);
       columns.push_back(column_of_window(track, window, rows.reading.back(), ranges));
       numbers.push_back(powers.middleRows(track.meter.starts[window], track.meter.length).colwise().mean());

@@ -161,6 +161,7 @@ ReadingRows rows_of_sensor(const InverseModel& model, const Sensor& sensor, cons
       rows.after.push_back(s.start + of_run.rows[i]);
       rows.reading.push_back(should_read(model, sensor, s.run, of_run.rows[i], recorded, residual));
       rows.time_s.push_back(m.time_s), rows.run.push_back(m.run), rows.fold.push_back(m.fold);
+      rows.position_m.push_back(m.position_m), rows.velocity_m_per_s.push_back(m.velocity_m_per_s);
       ranges.take(m, rows.reading.back());
       moments.push_back(m), earlier.push_back(all_earlier[static_cast<std::size_t>(m.sample)]);
     }

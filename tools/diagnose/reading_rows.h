@@ -27,9 +27,9 @@ enum class Follows {
 struct ReadingRows {
   std::string_view channel;
   bool of_force = false;
-  double per_unit = 1.0;                ///< the misfit's unit in the channel's
-  std::vector<Index> after, before;     ///< the model's rows that it adds to, and takes from
-  std::vector<double> reading, time_s;  ///< of each row; likewise below
+  double per_unit = 1.0;                                              ///< the misfit's unit in the channel's
+  std::vector<Index> after, before;                                   ///< the model's rows that it adds to, and takes from
+  std::vector<double> reading, time_s, position_m, velocity_m_per_s;  ///< of each row; likewise below
   std::vector<std::size_t> run, fold;
   Eigen::MatrixXd columns;                   ///< a column a row
   std::vector<AdditiveModel::Columns> ways;  ///< parts of these columns

@@ -48,12 +48,14 @@ Beat beat_over(const ReadingRows& rows, const Clock& clock) {
 
 Predicted best_of(const ReadingRows& rows, const Vector& y) {
   const AdditiveModel additive(rows.columns, rows.fold, rows.ways, rows.rows_of_zero);
-  auto [predicted, way] = additive.unseen(y, additive.ways());
+  const std::size_t alone = additive.ways() - (rows.follows.back() == Follows::several ? 1 : 0);
+  auto [predicted, way] = additive.unseen(y, alone);
   Predicted best{std::move(predicted), rows.follows[way]};
   const auto or_better = [&](Predicted other, double less = 1.0) {
     if ((y - other.unseen).squaredNorm() < less * (y - best.unseen).squaredNorm()) best = std::move(other);
   };
-  constexpr double clearly = 0.9;  // a wave is a harmonic of slower pulses too
+  constexpr double clearly = 0.9;  // a wave is a harmonic of slower pulses too, a curve a part of several
+  if (alone < additive.ways()) or_better({additive.unseen(y, additive.ways()).predicted, Follows::several}, clearly);
   for (const auto& clock : clocks_of(rows)) {
     const Beat beat = beat_over(rows, clock);
     or_better({beat.unseen(y), clock.follows, clock.per_s / beat.wave_Hz(y)});
@@ -66,16 +68,21 @@ ReadingStructure structure_of_reading(const ReadingRows& rows, const Vector& res
   ReadingStructure found;
   found.channel = rows.channel;
   if (rows.of_force) found.per_N = rows.per_unit;
-  const Vector after = without_numbers(residual(rows.after), rows.numbers);
-  Vector before = Vector::Zero(after.size()), y = after;
+  const Vector shown_behind = residual(rows.after), after = without_numbers(shown_behind, rows.numbers);
+  Vector before = Vector::Zero(after.size()), y = after, shown = shown_behind;
   if (!rows.before.empty()) {
-    before = without_numbers(-residual(rows.before), rows.numbers);
+    const Vector shown_ahead = -residual(rows.before);
+    before = without_numbers(shown_ahead, rows.numbers);
     const double share = before.squaredNorm() / (before.squaredNorm() + after.squaredNorm() + 1e-300);
     y = share * after + (1.0 - share) * before;
+    shown = share * shown_behind + (1.0 - share) * shown_ahead;
   }
   const Predicted best = best_of(rows, y);
+  const bool clock = best.follows == Follows::time;
   found.follows = best.follows;
-  found.every = best.follows == Follows::time ? best.every : rows.per_unit * best.every;
+  found.every = clock ? best.every : rows.per_unit * best.every;
+  found.table =
+      learn_reading(rows, shown, best.follows == Follows::reading_by_step ? best.every : 0.0, clock ? best.every : 0.0);
   found.share = 1.0 - (y - best.unseen).squaredNorm() / (y.squaredNorm() + 1e-300);
   found.remainder = rows.per_unit * std::sqrt(y.squaredNorm() / static_cast<double>(y.size()));
   if (!rows.before.empty())

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/diagnose/fit.h"
+#include "tools/diagnose/learned_reading.h"
 #include "tools/diagnose/reading_rows.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -21,7 +22,9 @@ struct ReadingStructure {
   double share = 0.0;      ///< of its square that is predicted on seconds that were not learned from; may be negative
   double every = 0.0;      ///< where it comes over and over: the time, s, or the step of what is read, in the channel's unit
   double per_N = 0.0;      ///< the channel's unit in a newton at the table; 0: it is none of force
-  double of_reading = 1.0;  ///< how much of what is predicted both equations have, turned round; 1: all
+  double of_reading = 1.0;              ///< how much of what is predicted both equations have, turned round; 1: all
+  std::optional<LearnedReading> table;  ///< that the plant can run, where one is of use
+  bool in_plant = false;                ///< the updated axis has it
   [[nodiscard]] double structured() const;
   /// Is it a finding of its own?
   [[nodiscard]] bool stands_out() const;

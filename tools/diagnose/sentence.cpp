@@ -72,10 +72,12 @@ std::string in_words(const ReadingStructure& reading) {
   const bool commanded = reading.channel == channel::torque_cmd_Nm;
   return fmt::format(
       "The mismatch is real and none of the known effects explains it: {} is {:.2g} rms off in its unit, and {:.0f} % of "
-      "that "
-      "follows {}, on seconds that it was not learned from. {} The updated axis does not hold it.",
+      "that follows {}, on seconds that it was not learned from. {} The updated axis {}.",
       reading.channel, reading.remainder, 100.0 * reading.share, what_it_follows(reading),
-      commanded ? "What acts is not what was commanded." : "The channel shows it; the axis does not do it.");
+      commanded ? "What acts is not what was commanded." : "The channel shows it; the axis does not do it.",
+      !reading.in_plant ? "does not hold it: no table over it brings the runs closer"
+      : commanded       ? "holds it (learned_command)"
+                        : "holds it (learned_reading)");
 }
 
 std::string outcome_of(const Diagnosis& diagnosis) {

@@ -72,4 +72,13 @@ plant::AxisParameters with_table(const ForwardModel& forward, const Fitter& fitt
   return extended(closest(forward, {axis(plain), axis(more)}) == 1 ? more : plain, worth_naming).common;
 }
 
+plant::AxisParameters with_reading(const ForwardModel& forward, const Candidate& told, ReadingStructure& reading,
+                                   const plant::AxisParameters& axis) {
+  if (!reading.table) return axis;
+  auto more = axis;
+  extend(more, *reading.table);
+  reading.in_plant = closest(forward, {with_phases_of(told, axis), with_phases_of(told, more)}) == 1;
+  return reading.in_plant ? more : axis;
+}
+
 }  // namespace feedtwin::tools::diagnosis

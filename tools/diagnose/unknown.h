@@ -25,4 +25,8 @@ void tell_what_rings(const Structure& left, Learned& told);
 [[nodiscard]] plant::AxisParameters with_table(const ForwardModel& forward, const Fitter& fitter, const Candidate& told,
                                                const Learned& learned);
 
+/// The axis with the table of what a channel shows, where that brings the runs of the fit closer.
+[[nodiscard]] plant::AxisParameters with_reading(const ForwardModel& forward, const Candidate& told,
+                                                 ReadingStructure& reading, const plant::AxisParameters& axis);
+
 }  // namespace feedtwin::tools::diagnosis

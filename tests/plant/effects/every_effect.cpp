@@ -130,7 +130,7 @@ TEST(EveryEffect, RunsTogetherWithAllOthers) {
 
 TEST(EveryEffect, IsGoneAtItsNeutralValue) {
   for (const auto& entry : effect_registry()) {
-    if (entry.id == "learned_residual") continue;
+    if (std::ranges::any_of(entry.parameters, &EffectParameter::list)) continue;  // an empty table is refused
     auto setting = preset_of(entry);
     std::size_t place = 0;
     for (const auto& p : entry.parameters) {

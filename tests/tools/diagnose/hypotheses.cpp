@@ -284,19 +284,5 @@ std::vector<std::string_view> ids() {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryHypothesis, testing::ValuesIn(ids()),
                          [](const auto& chosen) { return std::string(chosen.param); });
 
-TEST(BearsOut, AGainByItsOwnSensorAlone) {
-  const auto& h = hypothesis("sensor_gain");
-  ASSERT_EQ(h.starts.size(), 2U);
-  const Active torque{&h, h.starts[0]}, force{&h, h.starts[1]}, drag{&hypothesis("quadratic_drag"), {1.0}};
-  for (const auto& channel : {tools::channel::torque_cmd_Nm, tools::channel::power_W}) {
-    EXPECT_FALSE(bears_out(torque, channel) || bears_out(force, channel)) << channel;
-    EXPECT_TRUE(bears_out(drag, channel)) << channel;
-  }
-  EXPECT_TRUE(bears_out(torque, tools::channel::torque_sensor_Nm));
-  EXPECT_FALSE(bears_out(torque, tools::channel::force_sensor_N));
-  EXPECT_TRUE(bears_out(force, tools::channel::force_sensor_N));
-  EXPECT_FALSE(bears_out(force, tools::channel::torque_sensor_Nm));
-}
-
 }  // namespace
 }  // namespace feedtwin

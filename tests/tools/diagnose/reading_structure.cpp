@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "tests/support/made_case.h"
+#include "tools/diagnose/forward/forward_model.h"
 #include "tools/recording/power_meter.h"
 
 namespace feedtwin {
@@ -17,7 +18,7 @@ namespace {
 using namespace tools::diagnosis;
 namespace channel = tools::channel;
 
-std::vector<tools::Recording> runs(double speed_m_per_s) {
+std::vector<tools::Recording> runs(double speed_m_per_s, const plant::AxisParameters& truth = plant::source_axis()) {
   std::vector<tools::Recording> all;
   for (const char* motion : {"sine", "triangle", "s_curve"}) {
     tests::MadeRun made{.motion = motion,
@@ -27,7 +28,7 @@ std::vector<tools::Recording> runs(double speed_m_per_s) {
                         .power_noise_W = 0.05,
                         .seed = static_cast<unsigned>(all.size() + 1)};
     made.settings.speed_m_per_s = speed_m_per_s, made.settings.amplitude_m = 0.02;
-    all.push_back(tests::make_recording(plant::source_axis(), made));
+    all.push_back(tests::make_recording(truth, made));
   }
   return all;
 }
@@ -118,6 +119,67 @@ TEST(ReadingStructure, AForceThatTheModelLacksIsNoReading) {
       change(run, name, [&](double y, std::size_t k) { return y + 0.005 * std::sin(place[k] / 0.004); });
   });
   EXPECT_FALSE(told.out.has_value());
+}
+
+/// How far off each channel of the last run is, with and without the table that is learned of the others.
+struct RunInThePlant {
+  std::optional<LearnedReading> table;
+  Nrmse without, with;
+};
+RunInThePlant learned_of(std::vector<tools::Recording> all) {
+  for (auto& run : all) run.meter = tools::meter_habit(all, plant::source_axis());
+  tools::Case data;
+  data.axis = plant::source_axis();
+  data.holdout = {all.back()};
+  all.pop_back();
+  data.fit = all;
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const auto out = what_stands_out(model, {data.axis, {}}, [](std::string_view) {});
+  if (!out || !out->table) return {};
+  const ForwardModel held_out(data.holdout, data);
+  auto axis = data.axis;
+  extend(axis, *out->table);
+  return {out->table, held_out.nrmse(data.axis), held_out.nrmse(axis)};
+}
+
+TEST(ReadingStructure, TheCurveThatASensorReadsRunsInThePlant) {
+  auto all = runs(0.06);
+  for (auto& run : all) change(run, channel::force_sensor_N, [](double y, std::size_t) { return y + std::sin(y); });
+  const auto found = learned_of(std::move(all));
+  ASSERT_TRUE(found.table.has_value());
+  EXPECT_EQ(found.table->channel, channel::force_sensor_N);
+  EXPECT_EQ(found.table->over, Follows::reading);
+  EXPECT_LT(found.with.at("force_sensor_N"), 0.4 * found.without.at("force_sensor_N"));
+  EXPECT_NEAR(found.with.at("torque_cmd_Nm"), found.without.at("torque_cmd_Nm"), 1e-9);
+}
+
+TEST(ReadingStructure, WhatADriveMakesOfItsCommandsRunsInThePlant) {
+  auto truth = plant::source_axis();
+  plant::EffectSetting steps{"learned_command", {0.03}, {{}, {}}};
+  for (int i = 0; i < 16; ++i) {
+    steps.lists[0].push_back(0.03 * i / 16);
+    steps.lists[1].push_back(0.004 * std::sin(2.0 * std::numbers::pi * i / 16));
+  }
+  truth.effects.push_back(steps);
+  const auto found = learned_of(runs(0.2, truth));
+  ASSERT_TRUE(found.table.has_value());
+  EXPECT_EQ(found.table->channel, channel::torque_cmd_Nm);
+  EXPECT_NEAR(found.table->period, 0.03, 6e-4);
+  EXPECT_LT(found.with.at("torque_cmd_Nm"), 0.7 * found.without.at("torque_cmd_Nm"));
+}
+
+// A fan is on when it is: what it did in one run says nothing of another.
+TEST(ReadingStructure, AClockThatEachRunMeetsAtAnotherTimeIsNoTable) {
+  auto all = runs(0.06);
+  double ahead_s = 0.0;
+  for (auto& run : all) {
+    ahead_s += 0.61;
+    change(run, channel::power_W, [&](double p, std::size_t k) {
+      const double t = static_cast<double>(k - k % 100) * run.sample_s + ahead_s;
+      return p + (std::fmod(t, 1.57) < 0.78 ? 1.0 : 0.0);
+    });
+  }
+  EXPECT_FALSE(learned_of(std::move(all)).table.has_value());
 }
 
 }  // namespace

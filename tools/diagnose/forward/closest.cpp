@@ -41,6 +41,12 @@ bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const
   return farther_than(by_named) && farther_than(forward.noise_floor(extended(named)));
 }
 
+bool is_far_behind(const ForwardModel& forward, const Candidate& behind, const Candidate& ahead) {
+  constexpr double far = 2.0;
+  const auto of_behind = forward.nrmse(extended(behind)), of_ahead = forward.nrmse(extended(ahead));
+  return std::ranges::any_of(of_behind, [&](const auto& of) { return of.second > far * of_ahead.at(of.first); });
+}
+
 bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before) {
   constexpr double surely_deviations = 3.0;
   if (spoils_a_channel(forward, polished, before, far_worse_polished)) return false;

@@ -27,6 +27,9 @@ inline constexpr double far_worse_polished = 1.5;
 [[nodiscard]] bool spoils_a_channel(const ForwardModel& forward, const Candidate& rival, const Candidate& named,
                                     double far_worse = 2.0);
 
+/// Does one simulate some channel so much worse than the other that no name can be judged by its numbers?
+[[nodiscard]] bool is_far_behind(const ForwardModel& forward, const Candidate& behind, const Candidate& ahead);
+
 /// Are a model's polished numbers better than what they were? As the runs go, or beyond the scatter of their stretches
 /// likelier: a few rows of a jump may outweigh them in the sum.
 [[nodiscard]] bool is_better(const ForwardModel& forward, const Candidate& polished, const Candidate& before);
