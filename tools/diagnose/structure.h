@@ -39,8 +39,8 @@ class RepeatableStructure {
   [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
 
   const InverseModel& model_;
-  std::vector<std::vector<Index>> places_;   ///< settled rows of every run
-  Eigen::MatrixXd numbers_;                  ///< a row a settled row: what mass and friction could do
+  std::vector<std::vector<Index>> places_;  ///< settled rows of every run
+  Eigen::MatrixXd numbers_;                 ///< a row a settled row: what mass and friction could do
   AdditiveModel additive_;
   std::optional<Beat> beat_;
   std::optional<Ringing> ringing_;

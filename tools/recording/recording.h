@@ -43,10 +43,10 @@ using ChannelMap = std::map<std::string, ChannelSource, std::less<>>;
 
 /// What a reading of the power meter is the mean of.
 struct MeterHabit {
-  std::size_t delay = 0;              ///< ticks between the window's last and the reading's row: 0 or 1
-  bool instants = true;               ///< of the power at the rows' instants; otherwise over all time between them
-  double readings_a_window = 1.0;     ///< windows overlap where it is more, and do not meet where it is less
-  bool of_command = false;            ///< computed from the commanded torque and not measured
+  std::size_t delay = 0;           ///< ticks between the window's last and the reading's row: 0 or 1
+  bool instants = true;            ///< of the power at the rows' instants; otherwise over all time between them
+  double readings_a_window = 1.0;  ///< windows overlap where it is more, and do not meet where it is less
+  bool of_command = false;         ///< computed from the commanded torque and not measured
 };
 
 struct Recording {

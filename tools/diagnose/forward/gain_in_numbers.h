@@ -26,8 +26,8 @@ struct CommonShift {
 /// but for the damping of the bristles, of which the screw may have none to give.
 [[nodiscard]] plant::AxisParameters with_table_less(plant::AxisParameters axis, double times);
 
-/// Names the gain where the numbers have such a shift and the runs are nearly as likely with numbers near nominal and a gain of
-/// about that size.
+/// Names the gain where the numbers have such a shift and the runs are nearly as likely with numbers near nominal and a gain
+/// of about that size.
 /// @return the fit's model as the closed loop has it where the gain was added; otherwise as it was given
 std::optional<Ruling> ask_for_gain_in_numbers(const ForwardModel& forward, const Fitter& fitter, SearchResult& found,
                                               Fit& fit, std::optional<Ruling> settled,
