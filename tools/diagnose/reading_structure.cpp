@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/diagnose/beat.h"
+#include "tools/diagnose/folded.h"
 #include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -24,26 +25,23 @@ struct Predicted {
   double every = 0.0;
 };
 
-/// A clock that what comes over and over is looked for by: time, or what is read as if its range took so long, which makes
-/// 8 to 100 steps.
+/// A clock that what comes over and over is looked for by: time, whose phase is each run's own, or what is read as if its
+/// range took so long, which makes 6 to 100 steps.
 struct Clock {
   Follows follows;
-  std::vector<double> at_s;
+  std::vector<BeatMoment> moments;
   double per_s;  ///< in the misfit's unit, or seconds
 };
 
 std::vector<Clock> clocks_of(const ReadingRows& rows) {
   constexpr double range_s = 25.0;
   const auto [least, most] = std::ranges::minmax(rows.reading);
-  Clock by_step{Follows::reading_by_step, {}, (most - least + 1e-300) / range_s};
-  for (const double y : rows.reading) by_step.at_s.push_back((y - least) / by_step.per_s);
-  return {{Follows::time, rows.time_s, 1.0}, std::move(by_step)};
-}
-
-Beat beat_over(const ReadingRows& rows, const Clock& clock) {
-  std::vector<BeatMoment> moments;
-  for (std::size_t k = 0; k < clock.at_s.size(); ++k) moments.push_back({clock.at_s[k], true, rows.run[k], rows.fold[k]});
-  return {moments, *std::ranges::max_element(rows.fold) + 1};
+  std::vector<Clock> clocks{{Follows::time, {}, 1.0}, {Follows::reading_by_step, {}, (most - least + 1e-300) / range_s}};
+  for (std::size_t k = 0; k < rows.fold.size(); ++k) {
+    clocks[0].moments.push_back({rows.time_s[k], true, rows.run[k], rows.fold[k]});
+    clocks[1].moments.push_back({(rows.reading[k] - least) / clocks[1].per_s, true, 0, rows.fold[k]});
+  }
+  return clocks;
 }
 
 Predicted best_of(const ReadingRows& rows, const Vector& y) {
@@ -56,10 +54,13 @@ Predicted best_of(const ReadingRows& rows, const Vector& y) {
   };
   constexpr double clearly = 0.9;  // a wave is a harmonic of slower pulses too, a curve a part of several
   if (alone < additive.ways()) or_better({additive.unseen(y, additive.ways()).predicted, Follows::several}, clearly);
+  const std::size_t folds = *std::ranges::max_element(rows.fold) + 1;
   for (const auto& clock : clocks_of(rows)) {
-    const Beat beat = beat_over(rows, clock);
+    const Beat beat(clock.moments, folds);
     or_better({beat.unseen(y), clock.follows, clock.per_s / beat.wave_Hz(y)});
     or_better({beat.pulses_unseen(y), clock.follows, clock.per_s / beat.pulses_Hz(y)}, clearly);
+    const Folded folded(clock.moments, folds);
+    or_better({folded.unseen(y), clock.follows, clock.per_s * folded.period_s(y)}, clearly);
   }
   return best;
 }

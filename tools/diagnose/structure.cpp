@@ -143,6 +143,7 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   std::vector<BeatMoment> beats;
   for (const auto& m : all) beats.push_back({m.time_s, m.velocity_m_per_s > 0.0, m.run, m.fold});
   beat_.emplace(beats, folds);
+  folded_.emplace(beats, folds);
   std::vector<RingingMoment> swings;
   for (const auto& m : all) swings.push_back({m.run, m.fold, m.sample});
   ringing_.emplace(model.tracks(), swings, folds);
@@ -167,7 +168,7 @@ Vector RepeatableStructure::unseen(const Vector& y, std::size_t ways) const {
     or_better(keeps_time + additive_.unseen(y - keeps_time, ways).predicted);
   };
   beside(beat_->unseen(y));
-  if (ways > with_springs) beside(beat_->pulses_unseen(y));
+  if (ways > with_springs) beside(beat_->pulses_unseen(y)), beside(folded_->unseen(y));
   return best;
 }
 

@@ -9,6 +9,7 @@
 
 #include "tools/diagnose/additive_model.h"
 #include "tools/diagnose/beat.h"
+#include "tools/diagnose/folded.h"
 #include "tools/diagnose/inverse_model.h"
 #include "tools/diagnose/ringing.h"
 
@@ -43,6 +44,7 @@ class RepeatableStructure {
   Eigen::MatrixXd numbers_;                 ///< a row a settled row: what mass and friction could do
   AdditiveModel additive_;
   std::optional<Beat> beat_;
+  std::optional<Folded> folded_;
   std::optional<Ringing> ringing_;
 };
 

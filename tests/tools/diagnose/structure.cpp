@@ -83,6 +83,14 @@ TEST_F(Runs, PulsesByTheClockArePredictedInPartsOfRunsThatWereNotSeen) {
   EXPECT_LT(found.gives_way, 0.1) << "no spring does that";
 }
 
+// A hose that kicks for 0.05 s, every 0.83 s: no three waves are so short.
+TEST_F(Runs, ShortPulsesByTheClockArePredictedInPartsOfRunsThatWereNotSeen) {
+  const RepeatableStructure structure(model);
+  const Vector pulses = rows_of(
+      [](const Track& t, Index k) { return std::fmod(static_cast<double>(k) * t.sample_s + 0.4, 0.83) < 0.05 ? 6.0 : 0.0; });
+  EXPECT_GT(structure.remaining(noise() + pulses).share, 0.4);
+}
+
 // A brake that lets go late: a drag that is gone 0.35 s after each rest.
 TEST_F(Runs, ADragAfterEachRestIsPredictedWhereItWasNotSeen) {
   auto runs = made();  // their reversals are none
