@@ -69,6 +69,32 @@ TEST(Diagnosis, TheUpdatedAxisHasTheMeterAsItReads) {
   EXPECT_EQ(found.updated.power_meter_readings, 2.0);
 }
 
+// A force sensor whose amplifier bends: the axis is as the model has it.
+TEST(Diagnosis, WhatASensorShowsAndTheAxisDoesNotDoIsUnknownAndTheUpdatedAxisShowsIt) {
+  tools::Case data;
+  data.axis = off_by_some_percent();
+  for (const char* motion : {"sine", "s_curve", "triangle"}) {
+    tests::MadeRun made{.motion = motion, .duration_s = 6.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+    made.settings.speed_m_per_s = 0.06, made.settings.amplitude_m = 0.02;
+    auto run = tests::make_recording(plant::source_axis(), made);
+    for (double& force_N : run.channels.at("force_sensor_N")) force_N += std::sin(force_N);
+    run.channels.erase("power_W");
+    (data.fit.size() < 2 ? data.fit : data.holdout).push_back(std::move(run));
+  }
+  const auto found = tools::diagnosis::diagnose(data, [](std::string_view) {});
+  EXPECT_EQ(ids_of(found), "");
+  EXPECT_EQ(found.verdict, "unknown");
+  ASSERT_TRUE(found.unknown_reading.has_value());
+  EXPECT_EQ(found.unknown_reading->channel, "force_sensor_N");
+  EXPECT_TRUE(found.unknown_reading->in_plant);
+  EXPECT_TRUE(std::ranges::any_of(found.updated.effects, [](const auto& e) { return e.id == "learned_reading"; }));
+  const auto& force = found.holdout.at("force_sensor_N");
+  EXPECT_LT(force.after, 0.7 * force.recalibrated);
+  const auto unknown = tools::diagnosis::to_json(found, "").at("unknown");
+  EXPECT_EQ(unknown.at("channel"), "force_sensor_N");
+  EXPECT_TRUE(unknown.at("in_updated_axis"));
+}
+
 TEST(Diagnosis, CoggingIsNamedAloneWithItsSizeAndTheUpdatedAxisHoldsIt) {
   auto truth = plant::source_axis();
   truth.effects.push_back(tests::effect("cogging", {{"amplitude_Nm", 0.01}, {"cycles_per_rev", 8.0}, {"phase_rad", 0.7}}));
