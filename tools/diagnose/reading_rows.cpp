@@ -14,7 +14,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::array before_s{0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0};
+constexpr std::array before_s{0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 1000.0};  // the last: all that was, a leaking charge's
 
 struct ReadingPart {
   Follows follows;
@@ -58,7 +58,7 @@ Vector column_of_reading(const Moment& m, double reading, const std::array<doubl
   Index from = 0;
   add_hats(reading, all.least, all.most, reading_parts[0].width, 1.0, row, from);
   from += reading_parts[0].width;
-  for (const double y : before) row[from++] = y / (std::abs(all.least) + std::abs(all.most));
+  for (const double y : before) row[from++] = y;
   for (const auto& [share, low, high, width_both] :
        {std::tuple{m.position_m, all.low_m, all.high_m, reading_parts[2].width},
         {std::sqrt(std::abs(m.velocity_m_per_s) / all.fastest), 0.0, 1.0, reading_parts[3].width}}) {
@@ -75,6 +75,14 @@ Vector column_of_reading(const Moment& m, double reading, const std::array<doubl
   add_hats(m.command_N / all.strongest_N, -1.0, 1.0, each, 1.0, row, from);
   add_hats(std::cbrt(m.command_N * m.velocity_m_per_s / all.most_W), -1.0, 1.0, each, 1.0, row, from + each);
   return row;
+}
+
+/// What was before, each as large as a row of one: a little of it may be of much use.
+void scale_what_was_before(Eigen::MatrixXd& columns) {
+  for (Index i = 0; i < reading_parts[1].width; ++i) {
+    auto before = columns.row(reading_parts[0].width + i);
+    before *= std::sqrt(static_cast<double>(before.size())) / std::max(before.norm(), 1e-300);
+  }
 }
 
 void tell_ways(ReadingRows& rows) {
@@ -174,6 +182,7 @@ ReadingRows rows_of_sensor(const InverseModel& model, const Sensor& sensor, cons
     if (k == 0) rows.columns.resize(column.size(), static_cast<Index>(moments.size()));
     rows.columns.col(static_cast<Index>(k)) = column;
   }
+  scale_what_was_before(rows.columns);
   tell_ways(rows);
   rows.numbers = numbers_of(moments, rows, model.tracks().size());
   return rows;

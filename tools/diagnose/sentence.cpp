@@ -75,9 +75,9 @@ std::string in_words(const ReadingStructure& reading) {
       "that follows {}, on seconds that it was not learned from. {} The updated axis {}.",
       reading.channel, reading.remainder, 100.0 * reading.share, what_it_follows(reading),
       commanded ? "What acts is not what was commanded." : "The channel shows it; the axis does not do it.",
-      !reading.in_plant ? "does not hold it: no table over it brings the runs closer"
-      : commanded       ? "holds it (learned_command)"
-                        : "holds it (learned_reading)");
+      reading.in_plant ? fmt::format("has a table of it ({}) that holds {:.0f} %",
+                                     commanded ? "learned_command" : "learned_reading", 100.0 * reading.table->share_unseen)
+                       : "does not hold it: no table of it brings the runs closer");
 }
 
 std::string outcome_of(const Diagnosis& diagnosis) {

@@ -111,6 +111,21 @@ TEST(ReadingStructure, ASensorThatReadsACurveIsToldByBothEquations) {
   EXPECT_GT(told.out->of_reading, 0.8);
 }
 
+// A piezo sensor: y' = x' - y / T.
+TEST(ReadingStructure, AChargeThatLeaksIsToldByWhatWasReadBefore) {
+  constexpr double time_constant_s = 0.8;
+  const Told told = told_of([](tools::Recording& run) {
+    double leaked_N = 0.0;
+    change(run, channel::force_sensor_N, [&](double x, std::size_t) {
+      leaked_N += (x - leaked_N) * run.sample_s / time_constant_s;
+      return x - leaked_N;
+    });
+  });
+  ASSERT_TRUE(told.out.has_value());
+  EXPECT_EQ(told.out->channel, channel::force_sensor_N);
+  EXPECT_EQ(told.out->follows, Follows::reading_before);
+}
+
 // More friction of the screw along the travel: command and torque sensor show it alike.
 TEST(ReadingStructure, AForceThatTheModelLacksIsNoReading) {
   const Told told = told_of([](tools::Recording& run) {

@@ -68,6 +68,7 @@ Hypothesis rev_ripple_of_friction() {
   law.apply = apply_to_friction;
   law.sentence = "the screw's friction goes up and down by {amplitude_N} N, {cycles_per_rev} times a revolution";
   law.confused_with = {"rev_ripple", "position_friction"};
+  law.least_missed_nats = 100.0;  // a drag that came and went at random was told so, and missed by 18
   return law;
 }
 
