@@ -62,6 +62,7 @@ class Diagnosing {
     show();
     if (taken_back_if_denied(result_, found_) || left_out_if_of_harm(result_, found_)) tell_the_numbers_alone();
     plan_next();
+    show_mended(result_.updated, result_.setup);
     result_.summary = summary_of(result_);
     result_.simulated_samples = forward_.simulated_samples();
     return std::move(result_);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double stretch_of_windows_s = 0.73;  // no motion repeats in step with it
 constexpr std::size_t power_folds = 4;
-constexpr Index readings = 8, places = 16, speeds = 12, commands = 8;
+constexpr Index window_readings = 8, window_places = 16, window_speeds = 12, window_commands = 8;
 
 /// What the drive's power is made of, sample by sample.
 Eigen::MatrixXd powers_of(const Track& track) {
@@ -38,15 +38,16 @@ struct WindowRanges {
 
 /// Means over a window, and what is read over it.
 Vector column_of_window(const Track& track, std::size_t window, double reading_W, const WindowRanges& all) {
-  Vector row = Vector::Zero(readings + places + speeds + commands);
-  add_hats(reading_W, all.least_W, all.most_W, readings, 1.0, row, 0);
+  Vector row = Vector::Zero(window_readings + window_places + window_speeds + window_commands);
+  add_hats(reading_W, all.least_W, all.most_W, window_readings, 1.0, row, 0);
   const double each = 1.0 / static_cast<double>(track.meter.length);
   for (Index k = track.meter.starts[window]; k < track.meter.starts[window] + track.meter.length; ++k) {
     const double v = track.steady_m_per_s[k];
-    add_hats(track.position_m[k], all.low_m, all.high_m, places, each, row, readings);
-    add_hats(std::sqrt(std::abs(v) / all.fastest), 0.0, 1.0, speeds / 2, each, row,
-             readings + places + (v > 0.0 ? 0 : speeds / 2));
-    add_hats(track.held_N[k] / all.strongest_N, -1.0, 1.0, commands, each, row, readings + places + speeds);
+    add_hats(track.position_m[k], all.low_m, all.high_m, window_places, each, row, window_readings);
+    add_hats(std::sqrt(std::abs(v) / all.fastest), 0.0, 1.0, window_speeds / 2, each, row,
+             window_readings + window_places + (v > 0.0 ? 0 : window_speeds / 2));
+    add_hats(track.held_N[k] / all.strongest_N, -1.0, 1.0, window_commands, each, row,
+             window_readings + window_places + window_speeds);
   }
   return row;
 }
@@ -83,10 +84,10 @@ std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& 
     rows.columns.col(static_cast<Index>(k)) = columns[k], rows.numbers.row(static_cast<Index>(k)) = numbers[k];
   for (Index c = 0; c < rows.numbers.cols(); ++c) rows.numbers.col(c) /= std::max(rows.numbers.col(c).norm(), 1e-300);
   Index from = 0;
-  for (const auto& [follows, width] : {std::pair{Follows::reading, readings},
-                                       {Follows::place, places},
-                                       {Follows::speed, speeds},
-                                       {Follows::motion, commands}}) {
+  for (const auto& [follows, width] : {std::pair{Follows::reading, window_readings},
+                                       {Follows::place, window_places},
+                                       {Follows::speed, window_speeds},
+                                       {Follows::motion, window_commands}}) {
     AdditiveModel::Columns part;
     for (Index c = 0; c < width; ++c) part.push_back(from + c);
     rows.ways.push_back(std::move(part)), rows.follows.push_back(follows);

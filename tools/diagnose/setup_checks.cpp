@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/effects/registry.h"
+#include "tools/diagnose/late_scale.h"
 #include "tools/diagnose/lost_counts.h"
 #include "tools/intervals.h"
 
@@ -86,6 +88,14 @@ SetupFault given_back(const LostCounts& lost) {
            {"events_per_s", lost.per_s, normal_90 * lost.per_s / std::sqrt(lost.moments)}}};
 }
 
+SetupFault read_late(const LateScale& late) {
+  return {"channel_skew",
+          "sensors",
+          std::string(channel::scale_position_m),
+          fmt::format("the scale is late against the encoder, by {:.3g} ms: it is brought forward.", 1e3 * late.delay_s),
+          {{"scale_delay_s", late.delay_s, normal_90 * late.deviation_s}}};
+}
+
 /// The power meter's window as the readings show it against the configured one; mends the axis.
 std::optional<SetupFault> mend_meter(const Recording& recording, plant::AxisParameters& axis) {
   const MeteredPower meter = metered_rows(recording, axis);
@@ -134,6 +144,11 @@ std::vector<SetupFault> mend_setup(Case& data) {
     if (has(name) && work_share(data.fit, name, channel::position_m) < clear) mend(name, parameter);
 
   if (const auto lost = give_back_lost_counts(data)) faults.push_back(given_back(*lost));
+  if (const auto late = late_scale(data.fit)) {
+    faults.push_back(read_late(*late));
+    for (auto* runs : {&data.fit, &data.holdout})
+      for (auto& run : *runs) bring_forward(run, *late);
+  }
   if (scale) {
     const auto [factor, sigma] = slope(data.fit, channel::scale_position_m, channel::position_m);
     if (std::abs(factor - 1.0) > 0.01) {
@@ -150,6 +165,16 @@ std::vector<SetupFault> mend_setup(Case& data) {
   if (!data.fit.empty())
     if (auto window = mend_meter(data.fit.front(), data.axis)) faults.push_back(std::move(*window));
   return faults;
+}
+
+void show_mended(plant::AxisParameters& axis, const std::vector<SetupFault>& faults) {
+  for (const auto& fault : faults) {
+    if (fault.id != "channel_skew") continue;
+    const auto& entry = *plant::find_effect(fault.id);
+    auto setting = plant::preset_of(entry);
+    for (const auto& number : fault.parameters) *plant::value_in(setting, entry, number.name) = number.value;
+    axis.effects.push_back(std::move(setting));
+  }
 }
 
 }  // namespace feedtwin::tools::diagnosis

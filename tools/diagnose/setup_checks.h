@@ -22,4 +22,7 @@ struct SetupFault {
 /// Finds the faults and takes them out of the recordings and the axis, so that the rest of the diagnosis sees them no more.
 [[nodiscard]] std::vector<SetupFault> mend_setup(Case& data);
 
+/// The axis shows what the recordings were mended of: they are as they were to whoever compares it with them.
+void show_mended(plant::AxisParameters& axis, const std::vector<SetupFault>& faults);
+
 }  // namespace feedtwin::tools::diagnosis

@@ -28,16 +28,16 @@ void fade(const Moment& m, double command, double velocity, Vector& row, Index f
 }
 
 /// How many columns each part of the additive model has; the parts stand in this order.
-constexpr Index places = 40, speeds = 12, times = 8, pulls = 10, regions = 8, speeds_there = 6;
-constexpr std::array widths{3 * places,
-                            2 * speeds,
-                            2 * times,
-                            2 * pulls,
+constexpr Index place_hats = 40, speed_hats = 12, time_hats = 8, pull_hats = 10, region_hats = 8, speeds_there = 6;
+constexpr std::array widths{3 * place_hats,
+                            2 * speed_hats,
+                            2 * time_hats,
+                            2 * pull_hats,
                             Index{past_steps},
                             Index{relaxation_s.size()},
-                            2 * times,
+                            2 * time_hats,
                             Index{5 * fading_s.size()},
-                            2 * regions * speeds_there};
+                            2 * region_hats * speeds_there};
 enum Part : unsigned {
   place = 1,
   speed = 2,
@@ -75,8 +75,8 @@ std::vector<Index> columns_of(unsigned parts) {
 
 /// Speed's hats, by region of the travel.
 void over_region(double place_share, double speed_share, Vector& row, Index from) {
-  const double at = std::clamp(place_share, 0.0, 1.0) * static_cast<double>(regions - 1);
-  const Index i = std::min<Index>(static_cast<Index>(at), regions - 2);
+  const double at = std::clamp(place_share, 0.0, 1.0) * static_cast<double>(region_hats - 1);
+  const Index i = std::min<Index>(static_cast<Index>(at), region_hats - 2);
   const double share = at - static_cast<double>(i);
   add_hats(speed_share, 0.0, 1.0, speeds_there, 1.0 - share, row, from + i * speeds_there);
   add_hats(speed_share, 0.0, 1.0, speeds_there, share, row, from + (i + 1) * speeds_there);
@@ -102,21 +102,22 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
       add_hats(x, a, b, count, 1.0, row, from + (forth ? 0 : count));
       from += 2 * count;
     };
-    both_ways(m.position_m, low, high, places);
-    add_hats(m.position_m, low, high, places, m.velocity_m_per_s / fastest, row, from);
-    from += places;
-    both_ways(speed_share, 0.0, 1.0, speeds);
-    both_ways(std::log(std::clamp(m.since_reversal_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
-    both_ways(std::cbrt(m.acceleration_m_per_s2 / hardest), -1.0, 1.0, pulls);
+    both_ways(m.position_m, low, high, place_hats);
+    add_hats(m.position_m, low, high, place_hats, m.velocity_m_per_s / fastest, row, from);
+    from += place_hats;
+    both_ways(speed_share, 0.0, 1.0, speed_hats);
+    both_ways(std::log(std::clamp(m.since_reversal_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), time_hats);
+    both_ways(std::cbrt(m.acceleration_m_per_s2 / hardest), -1.0, 1.0, pull_hats);
     for (int j = 0; j < past_steps; ++j) row[from++] = m.past[static_cast<std::size_t>(j)] / hardest;
     for (const double strain_m : m.strain_m) row[from++] = strain_m / (high - low + 1e-12);
     if (m.since_rest_s < 2.0)
-      both_ways(std::log(std::clamp(m.since_rest_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), times);
+      both_ways(std::log(std::clamp(m.since_rest_s, 0.02, 2.0)), std::log(0.02), std::log(2.0), time_hats);
     else
-      from += 2 * times;
+      from += 2 * time_hats;
     fade(m, m.command_N / strongest_N, m.velocity_m_per_s / fastest, row, from);
     from += Index{5 * fading_s.size()};
-    over_region((m.position_m - low) / (high - low + 1e-12), speed_share, row, from + (forth ? 0 : regions * speeds_there));
+    over_region((m.position_m - low) / (high - low + 1e-12), speed_share, row,
+                from + (forth ? 0 : region_hats * speeds_there));
     rows.col(static_cast<Index>(k)) = row;
   }
   return rows;

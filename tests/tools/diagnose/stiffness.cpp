@@ -11,7 +11,7 @@ namespace {
 
 using namespace tools::diagnosis;
 
-struct Asked {
+struct AskedHowStiff {
   SearchResult found;
   Fit fit;
   std::optional<Ruling> settled;
@@ -19,7 +19,7 @@ struct Asked {
 
 /// An axis with these effects, recorded with force and torque sensors and without a scale (unless one is asked for), where
 /// the search named late sensors. @param rounds of fitting their delays and the nominal numbers; 0: as given
-Asked asked_of(const std::vector<plant::EffectSetting>& effects, const std::vector<double>& late_s, int rounds,
+AskedHowStiff asked_of(const std::vector<plant::EffectSetting>& effects, const std::vector<double>& late_s, int rounds,
                bool scale = false) {
   auto truth = plant::source_axis();
   truth.effects = effects;
@@ -33,7 +33,7 @@ Asked asked_of(const std::vector<plant::EffectSetting>& effects, const std::vect
   const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
   const Active late{&hypothesis("channel_skew"), late_s};
-  Asked asked;
+  AskedHowStiff asked;
   asked.found.whitening = fitter.colour_of(model.residual(data.axis, {}));
   asked.fit = fitter.fit_with_colour({data.axis, {late}}, asked.found.whitening, rounds, 6);
   asked.found.found.emplace_back();

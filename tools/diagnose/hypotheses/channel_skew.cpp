@@ -1,35 +1,18 @@
 // Skew: a sensor is late against the encoder.
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "tools/diagnose/hypotheses/registry.h"
+#include "tools/diagnose/samples_later.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-/// The reading a broken number of samples later, by the cubic through four: a straight line between two would average their
-/// noise, and any sensor would look late for the noise that this takes off.
-Vector samples_later(const Vector& reading, double samples) {
-  Vector out(reading.size());
-  const Index last = reading.size() - 1;
-  const auto whole = static_cast<Index>(std::floor(samples));
-  const double t = samples - static_cast<double>(whole);
-  const std::array<double, 4> weights{-t * (t - 1.0) * (t - 2.0) / 6.0, (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-                                      -(t + 1.0) * t * (t - 2.0) / 2.0, (t + 1.0) * t * (t - 1.0) / 6.0};
-  for (Index k = 0; k <= last; ++k) {
-    out[k] = 0.0;
-    for (Index j = 0; j < 4; ++j)
-      out[k] += weights[static_cast<std::size_t>(j)] * reading[std::clamp<Index>(k + whole + j - 1, 0, last)];
-  }
-  return out;
-}
-
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const auto late = [&](const Vector& reading, double delay_s) {
-    return Vector(reading - samples_later(reading, delay_s / track.sample_s));
+    return Vector(reading -
+                  samples_later({reading.data(), static_cast<std::size_t>(reading.size())}, delay_s / track.sample_s));
   };
   if (track.torque_sensor_N.size() > 0) add(sum.torque_sensor_N, late(track.torque_sensor_N, q[0]));
   if (track.force_sensor_N.size() > 0) add(sum.force_sensor_N, late(track.force_sensor_N, q[1]));

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using lanes::bristle_columns;
 using lanes::motion_columns;
 
-enum Column : Index { force = 0, rate = 4, acceleration = 8, velocity, one, measured, columns };
+enum Regressor : Index { force = 0, rate = 4, acceleration = 8, velocity, one, measured, columns };
 constexpr std::array<Index, 5> regressors{acceleration, force, rate, velocity, one};
 using Products = Eigen::Matrix<double, columns, columns>;
 
