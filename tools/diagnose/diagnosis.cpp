@@ -25,6 +25,7 @@
 #include "tools/diagnose/lead_by_torque.h"
 #include "tools/diagnose/mended_case.h"
 #include "tools/diagnose/motor_friction.h"
+#include "tools/diagnose/next_move.h"
 #include "tools/diagnose/own_phase.h"
 #include "tools/diagnose/payload_in_mass.h"
 #include "tools/diagnose/reported.h"
@@ -60,8 +61,9 @@ class Diagnosing {
     tell();
     tell_what_is_unknown();
     show();
-    if (taken_back_if_denied(result_, found_) || left_out_if_of_harm(result_, found_)) tell_the_numbers_alone();
-    plan_next();
+    if (taken_back_if_denied(result_, found_)) ask_what_was_denied();
+    if (left_out_if_of_harm(result_, found_)) tell_the_numbers_alone();
+    plan_next(result_, {data_, forward_, fitter_, found_.whitening, told_}, progress_);
     show_mended(result_.updated, result_.setup);
     result_.summary = summary_of(result_);
     result_.simulated_samples = forward_.simulated_samples();
@@ -211,11 +213,15 @@ class Diagnosing {
     }
     progress_(in_words(learned));
     if (!unknown_ && (!repeats(learned) || anything_missing(result_))) return;
-    result_.verdict = "unknown";
     result_.suspects.clear();
-    result_.unknown = learned;
     if (result_.effects.empty())
       found_.recalibrated.model = polished_if_closer(forward_, fitter_, found_.recalibrated.model);
+    take_as_unknown(learned);
+  }
+
+  void take_as_unknown(const Learned& learned) {
+    result_.verdict = "unknown";
+    result_.unknown = learned;
     if (unknown_)
       tell_what_rings(fitter_.structure().remaining(model_.residual(told_.axis, told_.effects)), *result_.unknown);
     result_.updated = result_.unknown->mode ? with_mode(forward_, fitter_, told_, *result_.unknown)
@@ -246,24 +252,19 @@ class Diagnosing {
     result_.energy_after = energy(as_told);
   }
 
+  /// What was named for want of better, and unseen runs deny, may be none of the catalogue.
+  void ask_what_was_denied() {
+    told_ = found_.recalibrated.model;
+    unknown_ = beyond_the_catalogue(fitter_, found_, told_, progress_);
+    if (unknown_) take_as_unknown(learn_remainder(model_, told_));
+    tell_the_numbers_alone();
+  }
+
   void tell_the_numbers_alone() {
     told_ = found_.recalibrated.model;
     result_.recalibrated = recalibrated(fitter_, found_.recalibrated, covariance_of(found_.recalibrated));
     if (result_.motor_presliding_m > 0.0) result_.motor_presliding_m = motor_presliding_m(told_.axis);
     show();
-  }
-
-  void plan_next() {
-    const Evidence seen{data_, forward_, fitter_, found_.whitening, told_};
-    const auto open = std::ranges::find_if(result_.effects, [](const NamedEffect& e) { return !e.alternatives.empty(); });
-    if (open != result_.effects.end()) {
-      result_.next = plan_to_separate(seen, *open->hypothesis, open->alternatives, progress_);
-      open->sentence += next_move_of(result_.next);
-    } else if (result_.verdict == "cannot-tell" && result_.denied_by_unseen == 0.0) {
-      std::vector<Candidate> models;
-      for (const auto& suspect : result_.suspects) models.push_back(suspect.model);
-      result_.next = plan_to_prove(seen, models, progress_);
-    }
   }
 
   const std::function<void(std::string_view)>& progress_;

@@ -9,6 +9,7 @@
 #include "tools/diagnose/late_scale.h"
 #include "tools/diagnose/lost_counts.h"
 #include "tools/intervals.h"
+#include "tools/recording/power_meter.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
