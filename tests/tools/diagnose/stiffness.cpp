@@ -20,7 +20,7 @@ struct AskedHowStiff {
 /// An axis with these effects, recorded with force and torque sensors and without a scale (unless one is asked for), where
 /// the search named late sensors. @param rounds of fitting their delays and the nominal numbers; 0: as given
 AskedHowStiff asked_of(const std::vector<plant::EffectSetting>& effects, const std::vector<double>& late_s, int rounds,
-               bool scale = false) {
+                       bool scale = false) {
   auto truth = plant::source_axis();
   truth.effects = effects;
   tools::Case data = tests::short_case(truth, plant::source_axis());
