@@ -109,6 +109,8 @@ std::optional<LearnedReading> learn_reading(const ReadingRows& rows, const Vecto
   std::optional<LearnedReading> best;
   const std::vector<bool> all(rows.fold.size(), true);
   for (const auto& over : tables_for(rows, misfit, step, cycle_s)) {
+    const auto [least, most] = std::ranges::minmax(over.at);
+    if (!(most > least)) continue;  // a quantity that never changes tells nothing
     const auto points = points_over(over);
     const double share = share_of_others(over, points, misfit, turns_of(rows, over));
     if (share < (best ? best->share_unseen : least_share_in_plant)) continue;
