@@ -74,11 +74,11 @@ TEST(Diagnosis, WhatASensorShowsAndTheAxisDoesNotDoIsUnknownAndTheUpdatedAxisSho
   tools::Case data;
   data.axis = off_by_some_percent();
   for (const char* motion : {"sine", "s_curve", "triangle"}) {
-    tests::MadeRun made{.motion = motion, .duration_s = 6.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+    tests::MadeRun made{
+        .motion = motion, .duration_s = 6.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05, .power_noise_W = 0.05};
     made.settings.speed_m_per_s = 0.06, made.settings.amplitude_m = 0.02;
     auto run = tests::make_recording(plant::source_axis(), made);
     for (double& force_N : run.channels.at("force_sensor_N")) force_N += std::sin(force_N);
-    run.channels.erase("power_W");
     (data.fit.size() < 2 ? data.fit : data.holdout).push_back(std::move(run));
   }
   const auto found = tools::diagnosis::diagnose(data, [](std::string_view) {});

@@ -34,7 +34,8 @@ Hypothesis copper_loss() {
           .named = named,
           .admissible = possible,
           .sentence = "the windings' i^2 R loss is missing: {coefficient_W_per_Nm2} W per N^2 m^2 of torque",
-
+          // beside a force sensor that bends a false one was missed by 1, true ones by 267 and more
+          .least_missed_nats = 20.0,
           .confused_with = {"regeneration_clipped"},
           .friction = false};
 }
