@@ -127,6 +127,9 @@ TEST(Repeats, ATableThatExplainsMuchOfItOrLessButAsLargeAForce) {
   };
   EXPECT_TRUE(told(0.4, 0.6));
   EXPECT_FALSE(told(0.4, 0.4));
+  EXPECT_TRUE(told(0.23, 0.63)) << "a bowl on a quiet axis";
+  EXPECT_FALSE(told(0.13, 0.9));
+  EXPECT_FALSE(told(0.23, 0.63, Where::reversal));
   EXPECT_TRUE(told(0.1, 2.0));
   EXPECT_FALSE(told(0.1, 1.0)) << "0.3 N of it";
   EXPECT_FALSE(told(0.06, 10.0)) << "as much as chance has had";
