@@ -201,7 +201,8 @@ class Diagnosing {
   }
 
   void tell_what_is_unknown() {
-    if (!unknown_ && !anything_missing(result_) && (result_.unknown_reading = what_stands_out(model_, told_, progress_))) {
+    if (!unknown_ && !anything_missing(result_)) result_.unknown_reading = what_stands_out(model_, told_, progress_);
+    if (result_.unknown_reading) {
       result_.verdict = "unknown";
       result_.updated = with_reading(forward_, told_, *result_.unknown_reading, result_.updated);
       return result_.suspects.clear();

@@ -131,10 +131,10 @@ double nats_to_stay(const Found& named, double farther) {
   // other names too: of ten that put the numbers 30 squared tolerances off and more and are right, a real axis's friction
   // along its travel was missed by 2.1 nats for each of these, the others by 21 and more; of four false ones, one on an axis
   // with nothing hidden, the most by 1.5
-  constexpr double nearer = 30.0, nats_for_each = 1.7;
+  constexpr double nearer = 30.0, nats_a_tolerance = 1.7;
   const bool what_numbers_do = h.told_by_runs_nats || h.number_of_the_model;
   if (farther < -(what_numbers_do ? far_nearer : nearer))
-    least = std::max(least, -(what_numbers_do ? times_as_many : nats_for_each) * farther);
+    least = std::max(least, -(what_numbers_do ? times_as_many : nats_a_tolerance) * farther);
   return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);
 }
 

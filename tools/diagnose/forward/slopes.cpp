@@ -8,7 +8,6 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 
 auto channels_of(auto& s) {
@@ -36,7 +35,7 @@ Simulated slope(const Simulated& from, const Simulated& to, double step) {
 /// The point, then one a step beside it in each unknown.
 bool are_forward_differences(const MatrixXd& points) {
   if (points.cols() != points.rows() + 1) return false;
-  for (Index i = 0; i < points.rows(); ++i) {
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
     Eigen::VectorXd step = points.col(i + 1) - points.col(0);
     if (step[i] == 0.0) return false;
     step[i] = 0.0;
@@ -52,22 +51,22 @@ void Slopes::learn(std::size_t run, const MatrixXd& points, const std::vector<Si
   auto& known = by_run_[run];
   known.resize(static_cast<std::size_t>(points.rows()));
   parallel_for(known.size(), [&](std::size_t place) {
-    const auto i = static_cast<Index>(place);
+    const auto i = static_cast<Eigen::Index>(place);
     known[place] = slope(simulated.front(), simulated[place + 1], points(i, i + 1) - points(i, 0));
   });
 }
 
-std::vector<Simulated> Slopes::simulated(std::size_t run, const MatrixXd& points, Index shared,
+std::vector<Simulated> Slopes::simulated(std::size_t run, const MatrixXd& points, Eigen::Index shared,
                                          const Simulator& simulate) const {
   const auto& known = by_run_[run];
   if (known.empty() || !are_forward_differences(points)) return simulate(points);
-  shared = std::min(shared, static_cast<Index>(known.size()));
-  std::vector<Index> asked{0};
-  for (Index i = shared; i < points.rows(); ++i) asked.push_back(i + 1);
+  shared = std::min(shared, static_cast<Eigen::Index>(known.size()));
+  std::vector<Eigen::Index> asked{0};
+  for (Eigen::Index i = shared; i < points.rows(); ++i) asked.push_back(i + 1);
   auto found = simulate(points(Eigen::all, asked));
   std::vector<Simulated> all(static_cast<std::size_t>(points.cols()));
   parallel_for(static_cast<std::size_t>(shared), [&](std::size_t place) {
-    const auto i = static_cast<Index>(place);
+    const auto i = static_cast<Eigen::Index>(place);
     all[place + 1] = sum(found.front(), points(i, i + 1) - points(i, 0), known[place]);
   });
   for (std::size_t a = 0; a < asked.size(); ++a) all[static_cast<std::size_t>(asked[a])] = std::move(found[a]);
