@@ -35,18 +35,25 @@ std::vector<tools::Recording> runs(double speed_m_per_s, const plant::AxisParame
 
 using Change = std::function<void(tools::Recording&)>;
 
-/// What stands out of runs that were changed so, by the true numbers.
-struct Told {
-  std::optional<ReadingStructure> out;
-  std::vector<ReadingStructure> all;
+/// Runs that were changed so, by the true numbers.
+struct Seen {
+  InverseModel model;
+  Candidate truth{plant::source_axis(), {}};
 };
-Told told_of(const Change& change, double speed_m_per_s = 0.06) {
+Seen changed_by(const Change& change, double speed_m_per_s = 0.06) {
   auto changed = runs(speed_m_per_s);
   for (auto& run : changed) change(run);
   for (auto& run : changed) run.meter = tools::meter_habit(changed, plant::source_axis());
-  const InverseModel model(make_tracks(changed, plant::source_axis()), plant::source_axis());
-  const Candidate truth{plant::source_axis(), {}};
-  return {what_stands_out(model, truth, [](std::string_view) {}), structure_of_readings(model, truth)};
+  return {InverseModel(make_tracks(changed, plant::source_axis()), plant::source_axis())};
+}
+
+/// What stands out of them.
+struct Told {
+  std::optional<ReadingStructure> out;
+};
+Told told_of(const Change& change, double speed_m_per_s = 0.06) {
+  const Seen seen = changed_by(change, speed_m_per_s);
+  return {what_stands_out(seen.model, seen.truth, [](std::string_view) {})};
 }
 
 void change(tools::Recording& run, std::string_view name, const std::function<double(double, std::size_t)>& to) {
@@ -56,10 +63,13 @@ void change(tools::Recording& run, std::string_view name, const std::function<do
 }
 
 TEST(ReadingStructure, NothingStandsOutOfAnAxisThatTheModelHolds) {
-  const Told told = told_of([](tools::Recording&) {});
-  EXPECT_EQ(told.all.size(), 5U);  // both sensors, command, scale, power
-  EXPECT_FALSE(told.out.has_value());
-  for (const auto& reading : told.all) EXPECT_LT(reading.share, 0.2) << reading.channel;
+  const Seen seen = changed_by([](tools::Recording&) {});
+  const auto all = structure_of_readings(seen.model, seen.truth);
+  EXPECT_EQ(all.size(), 5U);  // both sensors, command, scale, power
+  for (const auto& reading : all) {
+    EXPECT_FALSE(reading.stands_out()) << reading.channel;
+    EXPECT_LT(reading.share, 0.2) << reading.channel;
+  }
 }
 
 // A fan on the drive's supply, half of every 1.57 s.
