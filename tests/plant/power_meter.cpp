@@ -34,8 +34,8 @@ TEST(PowerMeter, ShowsTheMeanOfEachWindowFromItsEndOn) {
   EXPECT_NEAR(shown_J, energy_J, 1e-6) << "windows lose no energy";
 }
 
-TEST(PowerMeter, AWindowMaySpanSeveralReadings) {
-  PowerMeter meter(0.3, 3.0);
+/// Of random power, every 100 ticks: the mean of so many, or of what has passed by then.
+void expect_means_of(std::ptrdiff_t ticks, PowerMeter meter) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> power(-100.0, 500.0);
   std::vector<double> all;
@@ -43,22 +43,17 @@ TEST(PowerMeter, AWindowMaySpanSeveralReadings) {
     all.push_back(power(random));
     const double reading = meter.update(all.back(), 1e-3);
     if (all.size() % 100 != 0) continue;
-    const auto span = std::min<std::ptrdiff_t>(300, std::ssize(all));  // what has passed by then
+    const auto span = std::min(ticks, std::ssize(all));
     ASSERT_NEAR(reading, std::accumulate(all.end() - span, all.end(), 0.0) / static_cast<double>(span), 1e-9) << i;
   }
 }
 
+TEST(PowerMeter, AWindowMaySpanSeveralReadings) {
+  expect_means_of(300, PowerMeter(0.3, 3.0));
+}
+
 TEST(PowerMeter, AWindowMayBeTheLastPartBeforeAReading) {
-  PowerMeter meter(0.075, 0.75);
-  std::mt19937_64 random(4);
-  std::uniform_real_distribution<double> power(-100.0, 500.0);
-  std::vector<double> all;
-  for (int i = 0; i < 5000; ++i) {
-    all.push_back(power(random));
-    const double reading = meter.update(all.back(), 1e-3);
-    if (all.size() % 100 != 0) continue;
-    ASSERT_NEAR(reading, std::accumulate(all.end() - 75, all.end(), 0.0) / 75.0, 1e-9) << i;
-  }
+  expect_means_of(75, PowerMeter(0.075, 0.75));
 }
 
 TEST(PowerMeter, WindowsDoNotDriftWithTicksThatDoNotDivideThem) {

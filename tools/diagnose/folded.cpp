@@ -39,6 +39,12 @@ std::vector<Folded::Sums> Folded::sums_by_fold(const Vector& y, std::size_t peri
   return sums;
 }
 
+Folded::Sums Folded::sum_of(const std::vector<Sums>& by_fold) {
+  Sums all = by_fold.front();
+  for (std::size_t f = 1; f < by_fold.size(); ++f) all.y += by_fold[f].y, all.count += by_fold[f].count;
+  return all;
+}
+
 Vector Folded::unseen(const Vector& y) const {
   struct Best {
     double gain = -1.0;
@@ -48,8 +54,7 @@ Vector Folded::unseen(const Vector& y) const {
   std::vector<Best> best(folds_);
   for (std::size_t i = 0; i < periods; ++i) {
     const auto by_fold = sums_by_fold(y, i);
-    Sums all = by_fold.front();
-    for (std::size_t f = 1; f < folds_; ++f) all.y += by_fold[f].y, all.count += by_fold[f].count;
+    const Sums all = sum_of(by_fold);
     for (std::size_t f = 0; f < folds_; ++f) {
       const Eigen::ArrayXd others = all.y - by_fold[f].y, rows = all.count - by_fold[f].count + moments_of_zero;
       const double gain = (others * others / rows).sum();
@@ -70,8 +75,7 @@ double Folded::period_s(const Vector& y) const {
   Eigen::ArrayXd gain(static_cast<Index>(periods));
   for (std::size_t i = 0; i < periods; ++i) {
     const auto by_fold = sums_by_fold(y, i);
-    Sums all = by_fold.front();
-    for (std::size_t f = 1; f < folds_; ++f) all.y += by_fold[f].y, all.count += by_fold[f].count;
+    const Sums all = sum_of(by_fold);
     gain[static_cast<Index>(i)] = (all.y * all.y / (all.count + moments_of_zero)).sum();
   }
   Index best = 0;

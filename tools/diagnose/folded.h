@@ -28,6 +28,7 @@ class Folded {
   [[nodiscard]] std::size_t place(std::size_t period, std::size_t moment) const {
     return run_[moment] * parts + part_[period * run_.size() + moment];
   }
+  [[nodiscard]] static Sums sum_of(const std::vector<Sums>& by_fold);
   [[nodiscard]] std::vector<Sums> sums_by_fold(const Vector& y, std::size_t period) const;
 
   std::size_t folds_, runs_ = 0;

@@ -99,12 +99,13 @@ ReadingStructure structure_of_reading(const ReadingRows& rows, const Vector& res
   const bool clock = best.follows == Follows::time;
   found.follows = best.follows;
   found.every = clock ? best.every : rows.per_unit * best.every;
-  found.table =
-      learn_reading(rows, shown, best.follows == Follows::reading_by_step ? best.every : 0.0, clock ? best.every : 0.0);
   found.share = y.squaredNorm() > 0.0 ? 1.0 - (y - best.unseen).squaredNorm() / y.squaredNorm() : 0.0;
   found.remainder = rows.per_unit * std::sqrt(y.squaredNorm() / static_cast<double>(y.size()));
   if (!rows.before.empty())
     found.of_reading = std::min(after.dot(best.unseen), before.dot(best.unseen)) / (best.unseen.squaredNorm() + 1e-300);
+  if (found.stands_out())
+    found.table =
+        learn_reading(rows, shown, best.follows == Follows::reading_by_step ? best.every : 0.0, clock ? best.every : 0.0);
   return found;
 }
 

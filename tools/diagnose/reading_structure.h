@@ -24,7 +24,7 @@ struct ReadingStructure {
   double per_N = 0.0;      ///< the channel's unit in a newton at the table; 0: it is none of force
   double read = 0.0;       ///< rms of what is read, in the channel's unit; 0: that is of another unit
   double of_reading = 1.0;              ///< how much of what is predicted both equations have, turned round; 1: all
-  std::optional<LearnedReading> table;  ///< that the plant can run, where one is of use
+  std::optional<LearnedReading> table;  ///< that the plant can run, where it stands out and one is of use
   bool in_plant = false;                ///< the updated axis has it
   [[nodiscard]] double structured() const;
   /// Is it a finding of its own?

@@ -48,12 +48,9 @@ Seen changed_by(const Change& change, double speed_m_per_s = 0.06) {
 }
 
 /// What stands out of them.
-struct Told {
-  std::optional<ReadingStructure> out;
-};
-Told told_of(const Change& change, double speed_m_per_s = 0.06) {
+std::optional<ReadingStructure> told_of(const Change& change, double speed_m_per_s = 0.06) {
   const Seen seen = changed_by(change, speed_m_per_s);
-  return {what_stands_out(seen.model, seen.truth, [](std::string_view) {})};
+  return what_stands_out(seen.model, seen.truth, [](std::string_view) {});
 }
 
 void change(tools::Recording& run, std::string_view name, const std::function<double(double, std::size_t)>& to) {
@@ -74,76 +71,76 @@ TEST(ReadingStructure, NothingStandsOutOfAnAxisThatTheModelHolds) {
 
 // A fan on the drive's supply, half of every 1.57 s.
 TEST(ReadingStructure, ALoadThatKeepsTimeIsInThePower) {
-  const Told told = told_of([](tools::Recording& run) {
+  const auto told = told_of([](tools::Recording& run) {
     change(run, channel::power_W, [&](double p, std::size_t k) {
       const double t = static_cast<double>(k - k % 100) * run.sample_s + 0.4;
       return p + (std::fmod(t, 1.57) < 0.78 ? 1.0 : 0.0);
     });
   });
-  ASSERT_TRUE(told.out.has_value());
-  EXPECT_EQ(told.out->channel, channel::power_W);
-  EXPECT_EQ(told.out->follows, Follows::time);
-  EXPECT_NEAR(told.out->every, 1.57, 0.03);
-  EXPECT_GT(told.out->share, 0.6);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->channel, channel::power_W);
+  EXPECT_EQ(told->follows, Follows::time);
+  EXPECT_NEAR(told->every, 1.57, 0.03);
+  EXPECT_GT(told->share, 0.6);
 }
 
 TEST(ReadingStructure, ACoarseConverterStepsInWhatIsRead) {
   constexpr double step_Nm = 0.02;
-  const Told told = told_of([](tools::Recording& run) {
+  const auto told = told_of([](tools::Recording& run) {
     change(run, channel::torque_sensor_Nm, [](double y, std::size_t) { return step_Nm * std::round(y / step_Nm); });
   });
-  ASSERT_TRUE(told.out.has_value());
-  EXPECT_EQ(told.out->channel, channel::torque_sensor_Nm);
-  EXPECT_EQ(told.out->follows, Follows::reading_by_step);
-  EXPECT_NEAR(told.out->every, step_Nm, 0.02 * step_Nm);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->channel, channel::torque_sensor_Nm);
+  EXPECT_EQ(told->follows, Follows::reading_by_step);
+  EXPECT_NEAR(told->every, step_Nm, 0.02 * step_Nm);
 }
 
 TEST(ReadingStructure, WhatActsIsNotWhatWasCommandedStepByStep) {
   constexpr double step_Nm = 0.03, size_Nm = 0.004;
   constexpr double with_torques_of_all_sizes_m_per_s = 0.2;
-  const Told told = told_of(
+  const auto told = told_of(
       [](tools::Recording& run) {
         change(run, channel::torque_cmd_Nm,
                [](double u, std::size_t) { return u + size_Nm * std::sin(2.0 * std::numbers::pi * u / step_Nm); });
       },
       with_torques_of_all_sizes_m_per_s);
-  ASSERT_TRUE(told.out.has_value());
-  EXPECT_EQ(told.out->channel, channel::torque_cmd_Nm);
-  EXPECT_NEAR(told.out->every, step_Nm, 0.02 * step_Nm);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->channel, channel::torque_cmd_Nm);
+  EXPECT_NEAR(told->every, step_Nm, 0.02 * step_Nm);
 }
 
 TEST(ReadingStructure, ASensorThatReadsACurveIsToldByBothEquations) {
-  const Told told = told_of([](tools::Recording& run) {
+  const auto told = told_of([](tools::Recording& run) {
     change(run, channel::force_sensor_N, [](double y, std::size_t) { return y + 2.0 * std::sin(y / 4.0); });
   });
-  ASSERT_TRUE(told.out.has_value());
-  EXPECT_EQ(told.out->channel, channel::force_sensor_N);
-  EXPECT_GT(told.out->of_reading, 0.8);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->channel, channel::force_sensor_N);
+  EXPECT_GT(told->of_reading, 0.8);
 }
 
 // A piezo sensor: y' = x' - y / T.
 TEST(ReadingStructure, AChargeThatLeaksIsToldByWhatWasReadBefore) {
   constexpr double time_constant_s = 0.8;
-  const Told told = told_of([](tools::Recording& run) {
+  const auto told = told_of([](tools::Recording& run) {
     double leaked_N = 0.0;
     change(run, channel::force_sensor_N, [&](double x, std::size_t) {
       leaked_N += (x - leaked_N) * run.sample_s / time_constant_s;
       return x - leaked_N;
     });
   });
-  ASSERT_TRUE(told.out.has_value());
-  EXPECT_EQ(told.out->channel, channel::force_sensor_N);
-  EXPECT_EQ(told.out->follows, Follows::reading_before);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->channel, channel::force_sensor_N);
+  EXPECT_EQ(told->follows, Follows::reading_before);
 }
 
 // More friction of the screw along the travel: command and torque sensor show it alike.
 TEST(ReadingStructure, AForceThatTheModelLacksIsNoReading) {
-  const Told told = told_of([](tools::Recording& run) {
+  const auto told = told_of([](tools::Recording& run) {
     const auto place = std::vector<double>(run.at(channel::position_m).begin(), run.at(channel::position_m).end());
     for (const auto name : {channel::torque_cmd_Nm, channel::torque_sensor_Nm})
       change(run, name, [&](double y, std::size_t k) { return y + 0.005 * std::sin(place[k] / 0.004); });
   });
-  EXPECT_FALSE(told.out.has_value());
+  EXPECT_FALSE(told.has_value());
 }
 
 /// How far off each channel of the last run is, with and without the table that is learned of the others.
