@@ -238,10 +238,11 @@ class Diagnosing {
     forward_.learn_meter_noise(with_phases_of(told_, result_.updated));
     ForwardModel simulated(unseen, data_);
     simulated.take_meter_from(forward_);
+    const Candidate given{data_.axis, {}};
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
-    const auto as_given = followed(held_out, Candidate{data_.axis, {}}),
-               as_recalibrated = followed(held_out, recalibrated_only), as_told = followed(held_out, told_unseen);
+    const auto as_given = followed(held_out, given), as_recalibrated = followed(held_out, recalibrated_only),
+               as_told = followed(held_out, told_unseen);
     result_.holdout_inverse = figures(as_given, as_recalibrated, as_told);
     result_.force_error = force_errors(as_given, as_recalibrated, as_told);
     result_.holdout = figures(simulated, data_.axis, extended(recalibrated_only), updated_unseen);

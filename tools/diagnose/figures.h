@@ -16,6 +16,7 @@ struct Followed {
 };
 /// @param runs,model must outlive it
 [[nodiscard]] Followed followed(const InverseModel& runs, const Candidate& model);
+Followed followed(const InverseModel& runs, Candidate&& model) = delete;  // it would be gone
 
 /// |y - s| / |y - mean y| by channel, through the inverse model's low pass.
 using Nrmse = std::map<std::string, double>;
