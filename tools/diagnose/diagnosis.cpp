@@ -6,6 +6,7 @@
 
 #include "tools/diagnose/by_direction.h"
 #include "tools/diagnose/denied.h"
+#include "tools/diagnose/fast_lines.h"
 #include "tools/diagnose/forward/arbiter.h"
 #include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/confirm.h"
@@ -46,8 +47,8 @@ class Diagnosing {
   Diagnosing(const Case& given, const std::function<void(std::string_view)>& progress, std::vector<SetupFault> known = {})
       : progress_(progress),
         data_(mended(given, result_.setup, progress)),
-        jump_share_(shown_jump_share(data_, progress)),
-        model_(make_tracks(data_.fit, data_.axis, jump_share_), data_.axis),
+        as_read_(track_settings(data_, progress)),
+        model_(make_tracks(data_.fit, data_.axis, as_read_), data_.axis),
         fitter_(model_, data_.axis),
         forward_(data_.fit, data_) {
     for (auto& fault : known) result_.setup.push_back(std::move(fault));
@@ -233,7 +234,7 @@ class Diagnosing {
   void show() {
     progress_("figures on what the fit did not see");
     const auto& unseen = data_.holdout.empty() ? data_.fit : data_.holdout;
-    const InverseModel held_out(make_tracks(unseen, data_.axis, jump_share_), data_.axis);
+    const InverseModel held_out(make_tracks(unseen, data_.axis, as_read_), data_.axis);
     const Candidate told_unseen = for_unseen(held_out, found_.whitening, told_);
     forward_.learn_meter_noise(with_phases_of(told_, result_.updated));
     ForwardModel simulated(unseen, data_);
@@ -272,7 +273,7 @@ class Diagnosing {
   const std::function<void(std::string_view)>& progress_;
   Diagnosis result_;
   Case data_;
-  const double jump_share_;
+  const TrackSettings as_read_;
   const InverseModel model_;
   Fitter fitter_;
   ForwardModel forward_;

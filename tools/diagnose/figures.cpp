@@ -44,7 +44,7 @@ Vector recorded_of(const InverseModel& model, const Channel& channel) {
   if (!channel.slip) return summed(model, model.recorded(), channel);
   std::vector<double> all;  // against the whole travel
   for (const auto& track : model.tracks())
-    for (Index k = 0; k < track.size; k += InverseModel::decimation) all.push_back(track.table_position_m[k]);
+    for (Index k = 0; k < track.size; k += model.samples_a_row()) all.push_back(track.table_position_m[k]);
   return Eigen::Map<const Vector>(all.data(), static_cast<Index>(all.size()));
 }
 

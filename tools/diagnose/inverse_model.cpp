@@ -55,12 +55,15 @@ Vector meant(const Vector& at) {
 }  // namespace
 
 InverseModel::InverseModel(std::vector<Track> tracks, const plant::AxisParameters& nominal)
-    : tracks_(std::move(tracks)), nominal_(nominal), equations_(equations_for(tracks_.front())) {
+    : tracks_(std::move(tracks)),
+      nominal_(nominal),
+      equations_(equations_for(tracks_.front())),
+      low_pass_(low_pass_to(samples_a_row())) {
   for (std::size_t e = 0; e < equations_.size(); ++e)
     for (std::size_t r = 0; r < tracks_.size(); ++r) {
       const Track& track = tracks_[r];
       const Index size = equations_[e].power ? static_cast<Index>(track.meter.starts.size())
-                                             : std::max<Index>(0, (track.size - 2 * margin) / decimation);
+                                             : std::max<Index>(0, (track.size - 2 * margin) / samples_a_row());
       segments_.push_back({e, r, rows_, size});
       rows_ += size;
       power_ = power_ || equations_[e].power;

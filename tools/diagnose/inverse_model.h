@@ -22,6 +22,9 @@ struct Equation {
   bool motor = false, screw = false, guide = false, slip = false, power = false;
 };
 
+/// Hamming-windowed low pass of force rows that many samples apart, to 0.4 of their rate.
+[[nodiscard]] Vector low_pass_to(Index samples_a_row);
+
 /// Mass that the equation's forces move, kg.
 [[nodiscard]] double moved_kg(const Equation& equation, const plant::AxisParameters& axis);
 
@@ -52,11 +55,13 @@ class InverseModel {
   [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
   [[nodiscard]] Index rows() const { return rows_; }
   [[nodiscard]] bool power_recorded() const { return power_; }
+  [[nodiscard]] const plant::AxisParameters& nominal() const { return nominal_; }
   [[nodiscard]] const RowNoise& noise() const { return noise_; }
   /// Is the axis, about this row, beyond the pre-sliding that follows a reversal or a rest? True outside force equations.
   [[nodiscard]] bool settled(Index row) const { return settled_[static_cast<std::size_t>(row)]; }
   /// Samples between two rows of a force equation, and how many are dropped at either end.
-  static constexpr Index decimation = 4, margin = 24;
+  [[nodiscard]] Index samples_a_row() const { return tracks_.front().samples_a_row; }
+  static constexpr Index margin = 24;
   /// The sample at which a row stands.
   [[nodiscard]] Index sample_of(const Segment& segment, Index row) const;
 
@@ -117,6 +122,7 @@ class InverseModel {
   plant::AxisParameters nominal_;
   std::vector<Equation> equations_;
   std::vector<Segment> segments_;
+  Vector low_pass_;
   std::vector<double> acceleration_share_;  ///< of each equation's noise variance
   RowNoise noise_;
   std::vector<bool> settled_;

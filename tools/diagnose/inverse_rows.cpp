@@ -1,7 +1,6 @@
 // The inverse model's rows: one low pass and decimation for all, where they have settled, and how noisy they are.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,27 +12,20 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::size_t taps = 17;
-
-/// Hamming-windowed low pass at a tenth of the sample rate.
-const std::array<double, taps>& low_pass() {
-  static const auto kernel = [] {
-    std::array<double, taps> made{};
-    double sum = 0.0;
-    for (std::size_t i = 0; i < taps; ++i) {
-      const double t = static_cast<double>(i) - (taps - 1) / 2.0;
-      const double argument = std::numbers::pi * 0.2 * t;
-      made[i] = (0.54 + 0.46 * std::cos(2.0 * std::numbers::pi * t / (taps - 1))) *
-                (t == 0.0 ? 1.0 : std::sin(argument) / argument);
-      sum += made[i];
-    }
-    for (double& weight : made) weight /= sum;
-    return made;
-  }();
-  return kernel;
-}
+constexpr Index taps = 17;
 
 }  // namespace
+
+Vector low_pass_to(Index samples_a_row) {
+  const double band = 0.8 / static_cast<double>(samples_a_row);
+  Vector made(taps);
+  for (Index i = 0; i < taps; ++i) {
+    const double t = static_cast<double>(i) - (taps - 1) / 2.0, argument = std::numbers::pi * band * t;
+    made[i] =
+        (0.54 + 0.46 * std::cos(2.0 * std::numbers::pi * t / (taps - 1))) * (t == 0.0 ? 1.0 : std::sin(argument) / argument);
+  }
+  return made / made.sum();
+}
 
 double moved_kg(const Equation& equation, const plant::AxisParameters& axis) {
   const auto model = plant::make_axis_model(axis);
@@ -60,10 +52,9 @@ void InverseModel::find_settled() {
 
 void InverseModel::weigh_noise() {
   const auto sigma = [](const Vector& x) { return white_sigma({x.data(), static_cast<std::size_t>(x.size())}); };
-  const auto& kernel = low_pass();
   double flat = 0.0, twice = 0.0;  // what the low pass leaves of white noise, and of its second difference
-  for (std::size_t i = 0; i < taps + 2; ++i) {
-    const auto tap = [&](std::size_t j) { return j < taps ? kernel[j] : 0.0; };
+  for (Index i = 0; i < taps + 2; ++i) {
+    const auto tap = [&](Index j) { return j < taps ? low_pass_[j] : 0.0; };
     const double second = tap(i) - 2.0 * (i > 0 ? tap(i - 1) : 0.0) + (i > 1 ? tap(i - 2) : 0.0);
     flat += tap(i) * tap(i);
     twice += second * second;
@@ -86,7 +77,7 @@ void InverseModel::weigh_noise() {
 Index InverseModel::sample_of(const Segment& segment, Index row) const {
   const auto& meter = tracks_[segment.run].meter;
   if (equations_[segment.equation].power) return meter.starts[static_cast<std::size_t>(row)] + meter.length / 2;
-  return margin + row * decimation;
+  return margin + row * samples_a_row();
 }
 
 void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows) const {
@@ -98,10 +89,8 @@ void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows
     }
     return;
   }
-  const auto& kernel = low_pass();
-  const Eigen::Map<const Vector> weights(kernel.data(), taps);
   for (Index i = 0; i < segment.size; ++i)
-    rows[segment.start + i] = weights.dot(raw.segment(margin + i * decimation - static_cast<Index>(taps / 2), taps));
+    rows[segment.start + i] = low_pass_.dot(raw.segment(margin + i * samples_a_row() - taps / 2, taps));
   if (!equations_[segment.equation].slip) return;
   auto part = rows.segment(segment.start, segment.size);  // where either ruler has its zero tells nothing
   part.array() -= part.mean();

@@ -25,8 +25,8 @@ struct Rows {
   double per_row_s;
 };
 
-/// Frequency of the strongest line in radians a row, if there is one.
-std::optional<double> strongest_line(const Rows& rows) {
+/// Frequency of the strongest line above another in radians a row, if there is one.
+std::optional<double> strongest_line(const Rows& rows, double above_Hz) {
   const Index n = rows.values.size();
   Index length = 1;
   while (length < 2 * n) length *= 2;
@@ -36,7 +36,7 @@ std::optional<double> strongest_line(const Rows& rows) {
   Eigen::FFT<double> fft;
   fft.fwd(spectrum, padded);
   const Eigen::VectorXd power = spectrum.cwiseAbs2().head(length / 2);
-  const auto first = static_cast<Index>(std::ceil(lowest_Hz * rows.per_row_s * static_cast<double>(length)));
+  const auto first = static_cast<Index>(std::ceil(above_Hz * rows.per_row_s * static_cast<double>(length)));
   Index at = 0;
   double most = 0.0;
   for (Index i = std::max<Index>(first, 1); i + 1 < power.size(); ++i)
@@ -64,18 +64,31 @@ Vector line_at(const Rows& rows, double radians_per_row) {
   return waves * solved(normal, waves.transpose() * rows.values);
 }
 
+Rows settled_rows(const InverseModel& model, const Vector& residual, const Segment& s) {
+  Rows rows{residual.segment(s.start, s.size), Vector(s.size), model.tracks()[s.run].row_s()};
+  for (Index k = 0; k < s.size; ++k) rows.settled[k] = model.settled(s.start + k) ? 1.0 : 0.0;
+  rows.values = rows.values.cwiseProduct(rows.settled);
+  return rows;
+}
+
 }  // namespace
+
+std::optional<double> strongest_line_Hz(const InverseModel& model, const Vector& residual, const Segment& segment,
+                                        double above_Hz) {
+  if (segment.size < least_rows) return {};
+  const Rows rows = settled_rows(model, residual, segment);
+  const auto radians = strongest_line(rows, above_Hz);
+  return radians ? std::optional(*radians / (2.0 * std::numbers::pi * rows.per_row_s)) : std::nullopt;
+}
 
 Vector sharp_lines(const InverseModel& model, const Vector& residual) {
   Vector lines = Vector::Zero(residual.size());
   for (const auto& s : model.segments()) {
     const auto& equation = model.equations()[s.equation];
     if (equation.slip || equation.power || s.size < least_rows) continue;
-    Rows rows{residual.segment(s.start, s.size), Vector(s.size), InverseModel::decimation * model.tracks()[s.run].sample_s};
-    for (Index k = 0; k < s.size; ++k) rows.settled[k] = model.settled(s.start + k) ? 1.0 : 0.0;
-    rows.values = rows.values.cwiseProduct(rows.settled);
+    Rows rows = settled_rows(model, residual, s);
     for (int i = 0; i < most_lines; ++i) {
-      const auto found = strongest_line(rows);
+      const auto found = strongest_line(rows, lowest_Hz);
       if (!found) break;
       const Vector line = line_at(rows, *found);
       lines.segment(s.start, s.size) += line;

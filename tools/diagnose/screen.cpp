@@ -27,7 +27,7 @@ double line_power(const InverseModel& model, const Vector& white, double frequen
   for (const auto& s : model.segments()) {
     const auto& equation = model.equations()[s.equation];
     if (!equation.guide || s.size == 0) continue;
-    const double per_row = 2.0 * std::numbers::pi * frequency_Hz * InverseModel::decimation * model.tracks()[s.run].sample_s;
+    const double per_row = 2.0 * std::numbers::pi * frequency_Hz * model.tracks()[s.run].row_s();
     const std::complex<double> turn = std::polar(1.0, per_row);
     std::complex<double> phase = 1.0, sum = 0.0;
     for (Index k = 0; k < s.size; ++k, phase *= turn) sum += white[s.start + k] * phase;
@@ -75,6 +75,7 @@ std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const Inv
   auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks()) : hypothesis.shapes;
   if (hypothesis.where != Where::frequency) return grid;
   constexpr std::size_t strongest = 12, spread = 12;
+  std::erase_if(grid, [&](const auto& shape) { return shape[0] > model.tracks().front().highest_line_Hz() + 1e-9; });
   std::vector<std::pair<double, std::size_t>> lines;
   for (std::size_t i = 0; i < grid.size(); ++i) lines.emplace_back(line_power(model, white, grid[i][0]), i);
   std::ranges::sort(lines, std::greater{});

@@ -230,12 +230,13 @@ Track make_track(const Recording& recording, const plant::AxisParameters& axis) 
 }
 
 std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis,
-                               double force_jump_share) {
+                               const TrackSettings& settings) {
   std::vector<Track> tracks;
   for (const auto& recording : recordings) {
     tracks.push_back(make_track(recording, axis));
     tracks.back().run = tracks.size() - 1;
-    tracks.back().force_jump_share = force_jump_share;
+    tracks.back().force_jump_share = settings.force_jump_share;
+    tracks.back().samples_a_row = settings.samples_a_row;
   }
   return tracks;
 }

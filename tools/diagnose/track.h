@@ -23,6 +23,14 @@ using Index = Eigen::Index;
 /// Sub-steps a sample along which friction is followed.
 inline constexpr int path_substeps = 4;
 
+/// Between two rows of a force equation: but for lines, what acts is below a tenth of the sample rate.
+inline constexpr Index usual_samples_a_row = 4;
+
+/// Above it, rows are blind to a line: 100 Hz by the usual ones at 1 kHz.
+[[nodiscard]] inline double highest_line_Hz(Index samples_a_row, double sample_s) {
+  return 0.4 / (static_cast<double>(samples_a_row) * sample_s);
+}
+
 /// Readings of a power meter that shows means over windows.
 struct MeterWindows {
   Index length = 0;         ///< samples a window
@@ -37,6 +45,7 @@ struct Track {
   std::size_t run = 0;  ///< among those of the case
   double sample_s = 1e-3;
   Index size = 0;
+  Index samples_a_row = usual_samples_a_row;
   Vector command_N;         ///< mean of the command before and after the sample
   Vector held_N;            ///< command in force after the sample
   Vector shown_m;           ///< position as it was recorded
@@ -61,12 +70,20 @@ struct Track {
   MeterWindows meter;
   Vector metered_m_per_s;  ///< velocity that the power meter saw under the command of a sample, not smoothed
   Vector metered_at_m;     ///< where it saw it
+
+  [[nodiscard]] double row_s() const { return static_cast<double>(samples_a_row) * sample_s; }
+  [[nodiscard]] double highest_line_Hz() const { return diagnosis::highest_line_Hz(samples_a_row, sample_s); }
 };
 
 [[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);
+/// What a case's runs have in common.
+struct TrackSettings {
+  double force_jump_share = 1.0;
+  Index samples_a_row = usual_samples_a_row;
+};
 /// Of the runs of a case, each with its place among them.
 [[nodiscard]] std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis,
-                                             double force_jump_share = 1.0);
+                                             const TrackSettings& settings = {});
 
 /// Mean over the sample before and the sample after: from forces over a sample to forces about it.
 [[nodiscard]] Vector about_sample(const Vector& after);

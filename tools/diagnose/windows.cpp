@@ -141,7 +141,7 @@ std::vector<bool> rows_that_tell(const InverseModel& model, const Segment& s) {
 }
 
 Windows windows_in(const InverseModel& model, const Vector& white, std::size_t run, double frequency_Hz) {
-  const double sample_s = model.tracks()[run].sample_s, row_s = InverseModel::decimation * sample_s;
+  const double sample_s = model.tracks()[run].sample_s, row_s = model.tracks()[run].row_s();
   std::vector<Line> lines;
   Index first_sample = 0, rows = 0;
   for (const auto& s : model.segments()) {

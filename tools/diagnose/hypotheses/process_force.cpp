@@ -40,7 +40,7 @@ bool faster_than_a_floor(std::span<const double> q) {
 }
 
 std::vector<WorkingParameter> parameters() {
-  auto all = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 110.0});
+  auto all = line_parameters({"frequency_Hz", Kind::shape, 1e-3, 35.0, 450.0});
   all.push_back({"mean_N", Kind::amplitude, 0.1});
   all.push_back({"opposing_N", Kind::amplitude, 0.1, 0.0, 1e5});
   all.push_back({"ramp_s", Kind::fixed});
@@ -48,9 +48,9 @@ std::vector<WorkingParameter> parameters() {
   return all;
 }
 
-/// In the whole of every run; the screen adds windows to the strongest.
+/// In the whole of every run, as far as its rows show a line; the screen adds windows to the strongest.
 Grid shapes() {
-  Grid grid = frequencies(40.0, 100.0);
+  Grid grid = frequencies(40.0, 400.0);
   for (auto& shape : grid) shape.resize(2 + window_parameters, 0.0);
   return grid;
 }
