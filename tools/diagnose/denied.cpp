@@ -33,6 +33,18 @@ double farther_off(const std::map<std::string, ChannelFigures>& unseen) {
   return std::exp(sum / static_cast<double>(std::max<std::size_t>(1, unseen.size())));
 }
 
+/// Do the names do enough on unseen runs, in a channel that is farther off with them, to have brought it there? Otherwise it
+/// is the numbers beside them.
+bool brought_it_there(const Diagnosis& result) {
+  return std::ranges::any_of(result.holdout, [&](const auto& one) {
+    const auto& [channel, error] = one;
+    const double more = error.after * error.after - error.recalibrated * error.recalibrated;
+    const auto by_force = result.holdout_inverse.find(channel);
+    return more > 0.0 && by_force != result.holdout_inverse.end() &&
+           by_force->second.by_effects > least_share_of_harm * std::sqrt(more);
+  });
+}
+
 }  // namespace
 
 bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
@@ -41,6 +53,7 @@ bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
   const auto is_number = [](const Suspect& one) { return one.hypothesis->number_of_the_model; };
   const double most = std::ranges::all_of(named, is_number) ? numbers_denied_ratio : denied_ratio;
   if (named.empty() || result.unknown || ratio < most) return false;
+  if (!brought_it_there(result)) return false;
   if (farther_off(result.holdout_inverse) < borne_out_ratio) return false;
   const auto is_plain = [&](const Found& one) { return one.error_ratio > beyond_denial_ratio && is_named(result, one); };
   if (ratio < much_farther_off && std::ranges::any_of(found.found, is_plain)) return false;

@@ -46,6 +46,7 @@ struct Recalibrated {
 
 struct ChannelFigures {
   double before = 0.0, recalibrated = 0.0, after = 0.0, floor = 0.0;
+  double by_effects = 0.0;  ///< how far the effects move it, the numbers as they are; the inverse model alone says so
 };
 
 struct Diagnosis {

@@ -52,6 +52,18 @@ double spread(const Vector& y) {
   return y.size() > 0 ? std::sqrt((y.array() - y.mean()).square().mean()) : 0.0;
 }
 
+/// Rows against the spread of what is recorded, by channel.
+Nrmse relative(const InverseModel& model, const Vector& rows) {
+  Nrmse found;
+  for (const auto& channel : channels_of(model)) {
+    const Vector r = summed(model, rows, channel);
+    const double scale = spread(recorded_of(model, channel));
+    if (r.size() > 0 && scale > 0.0)
+      found[channel.name] = std::sqrt(r.squaredNorm() / static_cast<double>(r.size())) / scale;
+  }
+  return found;
+}
+
 }  // namespace
 
 Followed followed(const InverseModel& runs, const Candidate& model) {
@@ -59,16 +71,14 @@ Followed followed(const InverseModel& runs, const Candidate& model) {
 }
 
 Nrmse nrmse(const Followed& at) {
-  const InverseModel& model = at.runs;
-  const Vector residual = model.residual(at.axis, at.model, InverseModel::Rows::as_they_are);
-  Nrmse found;
-  for (const auto& channel : channels_of(model)) {
-    const Vector r = summed(model, residual, channel);
-    const double scale = spread(recorded_of(model, channel));
-    if (r.size() > 0 && scale > 0.0)
-      found[channel.name] = std::sqrt(r.squaredNorm() / static_cast<double>(r.size())) / scale;
-  }
-  return found;
+  return relative(at.runs, at.runs.residual(at.axis, at.model, InverseModel::Rows::as_they_are));
+}
+
+Nrmse made_by_effects(const Followed& at) {
+  const Candidate numbers{at.axis, {}};
+  const Followed without = followed(at.runs, numbers);
+  return relative(at.runs, at.runs.residual(at.axis, at.model, InverseModel::Rows::as_they_are) -
+                               at.runs.residual(at.axis, without.model, InverseModel::Rows::as_they_are));
 }
 
 Nrmse noise_floor(const Followed& at) {

@@ -21,6 +21,8 @@ Followed followed(const InverseModel& runs, Candidate&& model) = delete;  // it 
 /// |y - s| / |y - mean y| by channel, through the inverse model's low pass.
 using Nrmse = std::map<std::string, double>;
 [[nodiscard]] Nrmse nrmse(const Followed& at);
+/// What a model's effects make of it: |s - s without them| / |y - mean y|, the numbers as they are.
+[[nodiscard]] Nrmse made_by_effects(const Followed& at);
 /// What the encoder's grid and the sensors' own noise leave of it.
 [[nodiscard]] Nrmse noise_floor(const Followed& at);
 

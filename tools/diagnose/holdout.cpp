@@ -8,10 +8,10 @@ std::map<std::string, ChannelFigures> figures(const Followed& nominal, const Fol
                                               const Followed& final) {
   std::map<std::string, ChannelFigures> out;
   const auto before = nrmse(nominal), middle = nrmse(recalibrated_only), after = nrmse(final);
-  const auto floor = noise_floor(final);
+  const auto floor = noise_floor(final), by_effects = made_by_effects(final);
   for (const auto& [channel, value] : before) {
     const auto at = [&channel](const Nrmse& all) { return all.contains(channel) ? all.at(channel) : 0.0; };
-    out[channel] = {value, at(middle), at(after), at(floor)};
+    out[channel] = {value, at(middle), at(after), at(floor), at(by_effects)};
   }
   return out;
 }

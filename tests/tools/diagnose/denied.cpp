@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/tools/diagnose/cogged.h"
 #include "tests/tools/diagnose/named_effect.h"
 #include "tools/diagnose/forward/extended_axis.h"
@@ -23,7 +26,8 @@ struct Told {
 
   /// @param by_force how many times as far off the names leave the force along the recorded motion
   /// @param error_ratio how many times as far off the fitted runs are without them
-  explicit Told(double times, double by_force = 1.0, double error_ratio = 1.0) {
+  /// @param share how much of what they are farther off the names make
+  explicit Told(double times, double by_force = 1.0, double error_ratio = 1.0, double share = 1.0) {
     const double amplitude_Nm = 0.01 * times;
     SearchResult found;
     found.recalibrated.model = cogged.nominal;
@@ -39,6 +43,9 @@ struct Told {
     result.updated = axis;
     result.holdout = figures(cogged.forward, cogged.data.axis, extended(cogged.nominal), axis);
     result.holdout_inverse["torque_cmd_Nm"] = {.before = 1.0, .recalibrated = 1.0, .after = by_force};
+    const auto& torque = result.holdout.at("torque_cmd_Nm");
+    const double more = std::pow(torque.after, 2) - std::pow(torque.recalibrated, 2);
+    result.holdout_inverse["torque_cmd_Nm"].by_effects = share * std::sqrt(std::max(0.0, more));
     taken_back = taken_back_if_denied(result, found);
   }
 };
@@ -62,6 +69,11 @@ TEST(Denied, NotWhereTheFittedRunsAreUnthinkableWithoutIt) {
   EXPECT_FALSE(Told(somewhat, 1.0, 1.1 * beyond_denial_ratio).taken_back);
   EXPECT_TRUE(Told(somewhat, 1.0, 0.9 * beyond_denial_ratio).taken_back);
   EXPECT_TRUE(Told(much, 1.0, 1.1 * beyond_denial_ratio).taken_back);
+}
+
+TEST(Denied, NotWhereTheNumbersBesideItBringThemThere) {
+  EXPECT_FALSE(Told(30.0, 1.0, 1.0, 0.9 * least_share_of_harm).taken_back);
+  EXPECT_TRUE(Told(30.0, 1.0, 1.0, 1.1 * least_share_of_harm).taken_back);
 }
 
 TEST(Denied, ANameThatLeavesThemMuchFartherOffIsTakenBackAndSaid) {
@@ -90,6 +102,7 @@ TEST(Denied, NumbersThatRecalibrationHoldsAsWellAreGivenMore) {
       result.effects.push_back(tests::named(id, "amplitude_Nm", 1.0));
       result.holdout["torque_cmd_Nm"].recalibrated = 0.01;
       result.holdout["torque_cmd_Nm"].after = 0.01 * times_as_far;
+      result.holdout_inverse["torque_cmd_Nm"].by_effects = 0.1;
       const double most = std::string_view(id) == "payload" ? 2.0 : 1.1;
       EXPECT_EQ(taken_back_if_denied(result, found), times_as_far > most) << id << " " << times_as_far;
     }

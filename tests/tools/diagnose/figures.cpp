@@ -48,6 +48,18 @@ TEST(InverseFigures, TellAWrongMass) {
   EXPECT_GT(relative_force_error(followed(runs, wrong)), 2.0 * relative_force_error(followed(runs, right)));
 }
 
+TEST(InverseFigures, WhatTheEffectsMakeIsTheirsWhateverTheNumbers) {
+  const auto truth = plant::source_axis();
+  const auto data = tests::short_case(truth, truth);
+  const InverseModel runs(make_tracks(data.fit, truth), truth);
+  const Active cogging{&hypothesis("cogging"), {0.02, 0.0, 8.0}};
+  const Candidate with{truth, {cogging}}, wrong{heavier(truth, 1.5), {cogging}}, none{truth, {}};
+  const double made = made_by_effects(followed(runs, with)).at("torque_cmd_Nm");
+  EXPECT_NEAR(made, nrmse(followed(runs, with)).at("torque_cmd_Nm"), 0.05 * made) << "the model is right but for it";
+  EXPECT_NEAR(made_by_effects(followed(runs, wrong)).at("torque_cmd_Nm"), made, 0.01 * made);
+  EXPECT_EQ(made_by_effects(followed(runs, none)).at("torque_cmd_Nm"), 0.0);
+}
+
 TEST(InverseFigures, OfARunTooShortForARowAreNone) {
   const auto truth = plant::source_axis();
   auto data = tests::short_case(truth, truth);
