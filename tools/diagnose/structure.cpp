@@ -13,6 +13,7 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr std::size_t folds = folds_of_moments;
+constexpr double deviations_of_noise = 2.0;
 
 bool of_force(const Equation& equation) {
   return !equation.slip && !equation.power;
@@ -123,6 +124,18 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
   return rows;
 }
 
+/// Without what a force that the model does not know makes of the motion: any noise would be found in the accelerations that
+/// it brought about.
+void leave_out(double acceleration_m_per_s2, std::vector<Moment>& moments) {
+  const auto beyond = [acceleration_m_per_s2](double& a) {
+    a = std::copysign(std::max(0.0, std::abs(a) - acceleration_m_per_s2), a);
+  };
+  for (auto& m : moments) {
+    beyond(m.acceleration_m_per_s2);
+    for (double& before : m.past) beyond(before);
+  }
+}
+
 }  // namespace
 
 double Structure::structured_N() const {
@@ -131,7 +144,7 @@ double Structure::structured_N() const {
 
 RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(model), places_(model.tracks().size()) {
   constexpr std::size_t least_rows = 400;
-  std::vector<Moment> all;
+  auto& all = moments_;
   std::vector<bool> done(places_.size(), false);
   for (const auto& segment : model.segments()) {
     if (!of_force(model.equations()[segment.equation]) || done[segment.run]) continue;
@@ -151,22 +164,26 @@ RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(mod
   std::vector<double> accelerations, velocities;
   for (const auto& m : all) accelerations.push_back(m.acceleration_m_per_s2), velocities.push_back(m.velocity_m_per_s);
   numbers_ = columns_of_numbers(accelerations, velocities);
+  additive_ = additive_over(all);
+}
+
+AdditiveModel RepeatableStructure::additive_over(const std::vector<Moment>& moments) const {
   std::vector<std::size_t> fold;
-  for (const auto& m : all) fold.push_back(m.fold);
+  for (const auto& m : moments) fold.push_back(m.fold);
   std::vector<AdditiveModel::Columns> ways;
   for (const unsigned parts : asked) ways.push_back(columns_of(parts));
   constexpr double rows_of_zero = 10.0;
-  additive_ = AdditiveModel(regressors_of(all), fold, ways, rows_of_zero);
+  return {regressors_of(moments), fold, ways, rows_of_zero};
 }
 
-Vector RepeatableStructure::unseen(const Vector& y, std::size_t ways) const {
-  Vector best = additive_.unseen(y, ways).predicted;
+Vector RepeatableStructure::unseen(const AdditiveModel& additive, const Vector& y, std::size_t ways) const {
+  Vector best = additive.unseen(y, ways).predicted;
   const auto or_better = [&](Vector other) {
     if ((y - other).squaredNorm() < (y - best).squaredNorm()) best = std::move(other);
   };
   const auto beside = [&](const Vector& keeps_time) {
     or_better(keeps_time);
-    or_better(keeps_time + additive_.unseen(y - keeps_time, ways).predicted);
+    or_better(keeps_time + additive.unseen(y - keeps_time, ways).predicted);
   };
   beside(beat_->unseen(y));
   if (ways > with_springs) beside(beat_->pulses_unseen(y)), beside(folded_->unseen(y));
@@ -189,7 +206,7 @@ Vector RepeatableStructure::part_of(const Vector& residual) const {
   if (additive_.moments() == 0) return part;
   for (std::size_t e = 0; e < model_.equations().size(); ++e) {
     if (!of_force(model_.equations()[e])) continue;
-    const Vector y = gathered(residual, e), predicted = unseen(y, ways_of_colour);
+    const Vector y = gathered(residual, e), predicted = unseen(additive_, y, ways_of_colour);
     if ((y - predicted).squaredNorm() > y.squaredNorm()) continue;  // nothing that repeats
     Index at = 0;
     for (std::size_t run = 0; run < places_.size(); ++run)
@@ -209,16 +226,23 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
     if (of_force(model_.equations()[e])) y += gathered(residual, e);
   y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm();
-  const auto left_by = [&](std::size_t ways) { return (y - unseen(y, ways)).squaredNorm(); };
-  double after = left_by(additive_.ways());
+  const auto rms = [](const Vector& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); };
+  found.remainder_N = rms(y);
+  double moved = 0.0;
+  for (const auto& equation : model_.equations()) moved += moved_kg(equation, model_.nominal());
+  auto moments = moments_;
+  const double noise_N = rms(y - unseen(additive_, y, additive_.ways()));
+  leave_out(deviations_of_noise * noise_N / moved, moments);
+  const auto additive = additive_over(moments);
+  const auto left_by = [&](std::size_t ways) { return (y - unseen(additive, y, ways)).squaredNorm(); };
+  double after = left_by(additive.ways());
   if (before > 0.0) found.gives_way = std::max(0.0, left_by(ways_of_colour) - left_by(with_springs)) / before;
   const Vector rings = ringing_->unseen(y), rest = y - rings;
-  const double rung = before - rest.squaredNorm(), beside = (rest - unseen(rest, additive_.ways())).squaredNorm();
+  const double rung = before - rest.squaredNorm(), beside = (rest - unseen(additive, rest, additive.ways())).squaredNorm();
   if (rung > 0.0 && std::min(beside, before - rung) < after) {
     after = std::min(beside, before - rung);
     if (rung > 0.5 * (before - after)) found.rings = ringing_->mode(y);
   }
-  found.remainder_N = std::sqrt(before / static_cast<double>(y.size()));
   found.share = before > 0.0 ? 1.0 - after / before : 0.0;
   return found;
 }

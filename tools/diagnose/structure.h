@@ -11,6 +11,7 @@
 #include "tools/diagnose/beat.h"
 #include "tools/diagnose/folded.h"
 #include "tools/diagnose/inverse_model.h"
+#include "tools/diagnose/moments.h"
 #include "tools/diagnose/ringing.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -36,12 +37,14 @@ class RepeatableStructure {
 
  private:
   /// By the best of the first so many ways.
-  [[nodiscard]] Vector unseen(const Vector& y, std::size_t ways) const;
+  [[nodiscard]] Vector unseen(const AdditiveModel& additive, const Vector& y, std::size_t ways) const;
+  [[nodiscard]] AdditiveModel additive_over(const std::vector<Moment>& moments) const;
   [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
 
   const InverseModel& model_;
   std::vector<std::vector<Index>> places_;  ///< settled rows of every run
-  Eigen::MatrixXd numbers_;                 ///< a row a settled row: what mass and friction could do
+  std::vector<Moment> moments_;
+  Eigen::MatrixXd numbers_;  ///< a row a settled row: what mass and friction could do
   AdditiveModel additive_;
   std::optional<Beat> beat_;
   std::optional<Folded> folded_;

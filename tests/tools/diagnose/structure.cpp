@@ -115,6 +115,25 @@ TEST_F(Runs, ADragAfterEachRestIsPredictedWhereItWasNotSeen) {
   EXPECT_GT(structure.remaining(rows).share, 0.4) << "the time since a reversal tells 0.27 of it";
 }
 
+// Rough going pushes the axis at random, and the axis gives way: the force is then found in the accelerations that it made.
+TEST(Structure, AForceThatMovesTheAxisIsNotToldByTheMotionThatItMakes) {
+  std::mt19937 random{5};  // NOLINT(bugprone-random-generator-seed): the same runs every time
+  std::uniform_real_distribution<double> frequency_Hz(5.0, 16.0), phase_rad(0.0, 2.0 * std::numbers::pi);
+  std::vector<tools::Recording> runs;
+  for (const char* motion : {"sine", "triangle", "s_curve"}) {
+    auto axis = plant::source_axis();
+    for (int i = 0; i < 24; ++i)
+      axis.effects.push_back(
+          tests::effect("process_force",
+                        {{"amplitude_N", 1.0}, {"frequency_Hz", frequency_Hz(random)}, {"phase_rad", phase_rad(random)}}));
+    runs.push_back(tests::make_recording(axis, {.motion = motion, .duration_s = 8.0}));
+  }
+  const InverseModel model(make_tracks(runs, plant::source_axis()), plant::source_axis());
+  const Structure found = RepeatableStructure(model).remaining(model.residual(plant::source_axis(), {}));
+  EXPECT_GT(found.remainder_N, 2.0);
+  EXPECT_LT(found.share, 0.05);
+}
+
 /// Several speeds in each run, at every place.
 struct RunsOfSpeeds : testing::Test {
   InverseModel model{make_tracks(made(), plant::source_axis()), plant::source_axis()};
