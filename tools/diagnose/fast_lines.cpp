@@ -14,6 +14,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double one_frequency_Hz = 0.3;  // of the same line in two runs of some seconds
+// Just above the highest the usual rows show it as well; mains hum at 100 Hz in every run would bring the rows closer.
+constexpr double clearly_above = 1.03;
 
 /// The line that all runs have in the guide's equation above a frequency, of rows a sample apart.
 std::optional<double> line_of_all_runs(const InverseModel& model, double above_Hz) {
@@ -37,7 +39,7 @@ TrackSettings track_settings(const Case& data, const std::function<void(std::str
   const InverseModel every_sample(make_tracks(data.fit, data.axis, settings), data.axis);
   const double sample_s = every_sample.tracks().front().sample_s;
   settings.samples_a_row = usual_samples_a_row;
-  const auto line_Hz = line_of_all_runs(every_sample, highest_line_Hz(usual_samples_a_row, sample_s));
+  const auto line_Hz = line_of_all_runs(every_sample, clearly_above * highest_line_Hz(usual_samples_a_row, sample_s));
   if (!line_Hz) return settings;
   while (settings.samples_a_row > 1 && highest_line_Hz(settings.samples_a_row, sample_s) < *line_Hz)
     settings.samples_a_row /= 2;
