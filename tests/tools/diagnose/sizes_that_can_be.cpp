@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "plant/parameter_table.h"
 #include "tests/tools/diagnose/named_effect.h"
 #include "tools/diagnose/hypothesis.h"
 #include "tools/diagnose/soft_contact.h"
+#include "tools/diagnose/windows.h"
 
 namespace feedtwin {
 namespace {
@@ -172,6 +175,20 @@ TEST(Hypothesis, ALagAndADelayAreAlikeOnlyWhereBothAreGoneWithinASample) {
   EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 4e-4), sample_s));
   EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("current_loop_lag", 1.2e-4), 0.25 * sample_s));
   EXPECT_FALSE(alike(of("input_delay", 1.2e-4), of("frictional_lag", 1.2e-4), sample_s));
+}
+
+TEST(ProcessForce, OfACutIsMoreThanTheMeanThatItPushesWith) {
+  const Hypothesis& process = hypothesis("process_force");
+  const auto can_be = [&](double amplitude_N, double mean_N, double opposing_N, bool in_a_part) {
+    Active cut{&process, std::vector<double>(process.parameters.size(), 0.0)};
+    cut.q[0] = amplitude_N, cut.q[2 * line_runs] = 60.0, cut.q[2 * line_runs + 1] = mean_N,
+    cut.q[2 * line_runs + 2] = opposing_N;
+    if (in_a_part) set_windows(process.first_window, cut.q, std::vector<Windows>{{{0.5, 1.5}}});
+    return possible(cut, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(3.0, 8.0, 0.0, true));
+  EXPECT_TRUE(can_be(0.01, 0.0, 0.0, false));
+  EXPECT_FALSE(can_be(0.011, 0.107, 0.377, true)) << "what a polish of the numbers left";
 }
 
 TEST(ToldBySizeAlone, SlowLinesAreTheFloorsAndFastOnesTheTeeths) {

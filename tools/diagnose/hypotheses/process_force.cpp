@@ -34,6 +34,12 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return values;
 }
 
+/// What it pushes with in the mean without teeth that pass is something else.
+bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  constexpr double least_of_mean = 0.1;
+  return !windowed(first_window, q) || line_amplitude(q) > least_of_mean * std::hypot(q[mean], q[opposing]);
+}
+
 /// Than the 10 to 40 Hz of a floor.
 bool faster_than_a_floor(std::span<const double> q) {
   return rate_of_line(q) > 45.0;
@@ -66,6 +72,7 @@ Hypothesis process_force() {
           .shapes = shapes(),
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "a process pushes the table with {amplitude_N} N at {frequency_Hz} Hz",
 
           .confused_with = {"floor_vibration"},
