@@ -40,7 +40,7 @@ TrackSettings track_settings(const Case& data, const std::function<void(std::str
   const double sample_s = every_sample.tracks().front().sample_s;
   settings.samples_a_row = usual_samples_a_row;
   const auto line_Hz = line_of_all_runs(every_sample, clearly_above * highest_line_Hz(usual_samples_a_row, sample_s));
-  if (!line_Hz) return settings;
+  if (!line_Hz || *line_Hz > highest_line_Hz(1, sample_s)) return settings;
   while (settings.samples_a_row > 1 && highest_line_Hz(settings.samples_a_row, sample_s) < *line_Hz)
     settings.samples_a_row /= 2;
   progress(fmt::format("all runs have a line at {:.1f} Hz: rows are {} ms apart", *line_Hz,

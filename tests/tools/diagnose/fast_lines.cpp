@@ -47,6 +47,7 @@ TEST(FastLines, RowsComeAsCloseAsTheLineAsks) {
 }
 
 TEST(FastLines, WithoutOneThatAllRunsHaveTheyStay) {
+  EXPECT_EQ(samples_a_row(cut_at({410.0, 410.0, 410.0}, 80.0)), 4) << "no rows show it";
   EXPECT_EQ(samples_a_row(cut_at({133.0, 139.0, 133.0}, 10.0)), 4);
   EXPECT_EQ(samples_a_row(cut_at({133.0, 133.0, 133.0}, 0.0)), 4);
   EXPECT_EQ(samples_a_row(cut_at({100.1, 100.1, 100.1}, 10.0)), 4) << "mains hum, which the usual rows show";
