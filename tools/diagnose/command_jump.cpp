@@ -7,8 +7,8 @@
 namespace feedtwin::tools::diagnosis {
 
 double force_jump_share(const std::vector<Recording>& runs, const plant::AxisParameters& nominal) {
-  constexpr double least_s = 3e-4, most_s = 1.2e-3;  // more is a late sensor
-  constexpr double beyond_torque_s = 2.5e-4;         // a late command makes both sensors look late
+  constexpr double least_s = 3e-4, most_s = 1.45e-3;  // more is a late sensor
+  constexpr double beyond_torque_s = 2.5e-4;          // a late command makes both sensors look late
   constexpr int rounds = 2, iterations = 3;
   if (runs.empty() || !runs.front().has(channel::force_sensor_N)) return 1.0;
   const InverseModel one_body(make_tracks(runs, nominal), nominal);

@@ -161,7 +161,8 @@ struct Hypothesis {
   /// So small that what it is confused with does the same to every sample, if that is as small.
   bool (*too_small_to_tell)(std::span<const double> q, double sample_s) = nullptr;
   /// The grid where it depends on where the axis was; in place of `shapes`.
-  std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
+  std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs,
+                                                 const plant::AxisParameters& axis) = nullptr;
   /// Steps of the amplitudes that the screen looks over, times their own: for laws that no short step shows.
   std::vector<double> reaches = {1.0};
   /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.

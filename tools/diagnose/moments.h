@@ -11,13 +11,17 @@ namespace feedtwin::tools::diagnosis {
 
 /// Of springs that give way with time: a bellows, a counterbalance cylinder that leaks.
 inline constexpr std::array relaxation_s{0.1, 0.3, 1.0, 3.0};
+/// Of springs that give way after some path, as parts of the longest travel: seals, and covers that are picked up one by
+/// one.
+inline constexpr std::array yielding_share{0.01, 0.03, 0.1, 0.25, 0.5};
 /// Of what fades, sags, warms or thins with use.
 inline constexpr std::array fading_s{0.1, 0.5, 2.0, 8.0};
 
 struct Moment {
   double position_m, velocity_m_per_s, acceleration_m_per_s2, since_reversal_s, since_rest_s, time_s, command_N;
-  std::vector<double> past;                            ///< accelerations before
-  std::array<double, relaxation_s.size()> strain_m{};  ///< of such springs
+  std::vector<double> past;                              ///< accelerations before
+  std::array<double, relaxation_s.size()> strain_m{};    ///< of such springs
+  std::array<double, yielding_share.size()> yielding{};  ///< likewise, of the strain at which they give way
   /// Means of the command's square and of the speed over the time before, of the run's largest.
   std::array<double, fading_s.size()> load{}, use{};
   std::size_t run, fold;

@@ -11,7 +11,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double least_tolerances = 5.0, least_deviations = 8.0;
+constexpr double least_tolerances = 4.0, least_deviations = 8.0;
 
 /// Is the screw's Coulomb friction, both ways, off by more than a data sheet's could be? Numbers that were fitted under a
 /// lead that is wrong are all off by what the lead is.

@@ -72,7 +72,7 @@ void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& mod
 /// The shapes that are worth asking about: of frequencies the strongest lines, some others for what chance does.
 std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const InverseModel& model, const Vector& white,
                                          const Fit& fit) {
-  auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks()) : hypothesis.shapes;
+  auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks(), fit.model.axis) : hypothesis.shapes;
   if (hypothesis.where != Where::frequency) return grid;
   constexpr std::size_t strongest = 12, spread = 12;
   std::erase_if(grid, [&](const auto& shape) { return shape[0] > model.tracks().front().highest_line_Hz() + 1e-9; });

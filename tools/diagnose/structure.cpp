@@ -38,7 +38,8 @@ constexpr std::array widths{3 * place_hats,
                             Index{relaxation_s.size()},
                             2 * time_hats,
                             Index{5 * fading_s.size()},
-                            2 * region_hats * speeds_there};
+                            2 * region_hats * speeds_there,
+                            Index{yielding_share.size()}};
 enum Part : unsigned {
   place = 1,
   speed = 2,
@@ -48,12 +49,13 @@ enum Part : unsigned {
   relaxing = 32,
   start = 64,
   fading = 128,
-  region = 256
+  region = 256,
+  yielding = 512
 };
 /// What is asked: a part that has nothing to say spoils what the others say on unseen folds.
 /// The last ones only when it is asked whether a model leaves structure over, not for the colour of the noise.
 constexpr std::size_t ways_of_colour = 5, with_springs = 7;
-constexpr std::array<unsigned, 11> asked{place | speed | reversal | pull | past,
+constexpr std::array<unsigned, 13> asked{place | speed | reversal | pull | past,
                                          place,
                                          speed | reversal | pull | past,
                                          pull | past,
@@ -63,7 +65,9 @@ constexpr std::array<unsigned, 11> asked{place | speed | reversal | pull | past,
                                          start,
                                          fading,
                                          region,
-                                         place | speed | reversal | pull | past | fading};
+                                         place | speed | reversal | pull | past | fading,
+                                         yielding,
+                                         place | speed | yielding};
 
 std::vector<Index> columns_of(unsigned parts) {
   std::vector<Index> columns;
@@ -119,6 +123,8 @@ Eigen::MatrixXd regressors_of(const std::vector<Moment>& all) {
     from += Index{5 * fading_s.size()};
     over_region((m.position_m - low) / (high - low + 1e-12), speed_share, row,
                 from + (forth ? 0 : region_hats * speeds_there));
+    from += 2 * region_hats * speeds_there;
+    for (const double strain : m.yielding) row[from++] = strain;
     rows.col(static_cast<Index>(k)) = row;
   }
   return rows;

@@ -36,6 +36,14 @@ TEST(CommandJump, BehindAYieldingScrewThereIsNone) {
   EXPECT_GT(share, -1.0);
 }
 
+// A stiff screw between two masses swings for half a millisecond after each jump, and a sensor that averages shows the jump
+// later than one that does not.
+TEST(CommandJump, AsLateAsBehindAScrewThatSwingsThereIsNone) {
+  EXPECT_EQ(
+      share_of(with(tests::effect("channel_skew", {{"torque_sensor_delay_s", 4e-4}, {"force_sensor_delay_s", 1.3e-3}}))),
+      -1.0);
+}
+
 TEST(CommandJump, ALateSensorIsNoYieldingScrew) {
   EXPECT_EQ(share_of(with(tests::effect("channel_skew", {{"force_sensor_delay_s", 2e-3}}))), 1.0);
 }

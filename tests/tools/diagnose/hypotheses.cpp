@@ -191,6 +191,24 @@ TEST(LoadDependentFriction, RisesWithTheWeightAsWellAsWithTheMass) {
   EXPECT_NEAR(fitted.effects[1].q[0], per_load, 0.03 * per_load);
 }
 
+// However large the axis is, and however little of its command is cut off.
+TEST(TorqueSaturation, IsLookedForUpToTheLargestCommand) {
+  auto axis = plant::source_axis();
+  auto runs = make_tracks({tests::make_recording(axis, {.motion = "sine", .duration_s = 2.0})}, axis);
+  for (const double times : {1.0, 40.0}) {
+    for (auto& run : runs) run.held_N *= times;
+    const double largest_Nm = runs.front().held_N.cwiseAbs().maxCoeff() * axis.axis.lead_m / (2.0 * std::numbers::pi);
+    const auto limits = hypothesis("torque_saturation").shapes_for(runs, axis);
+    for (const double share : {0.96, 0.8, 0.3, 0.05})
+      EXPECT_TRUE(std::ranges::any_of(limits,
+                                      [&](const auto& limit) {
+                                        return limit[0] < largest_Nm &&
+                                               std::abs(limit[0] / (share * largest_Nm) - 1.0) < 0.06;
+                                      }))
+          << share << " of " << largest_Nm;
+  }
+}
+
 TEST(LocalFriction, IsToldWhereItIs) {
   const auto& spot = hypothesis("local_friction");
   EXPECT_EQ(component_of({&spot, {15.0, 0.004, 0.002, 0.0}}), "guide");

@@ -78,6 +78,23 @@ TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
   EXPECT_EQ(left_of(0.03, -5.0), 0U) << "the closed loop does better without";
 }
 
+// A slope of sliding friction in parts of it, and of the viscous in N s/m: what the one engine has of the second is no
+// measure of the first.
+TEST(Sizes, AmplitudesOfOtherUnitsAreWeighedByTheirSteps) {
+  const Cogged made;
+  const auto& slope = hypothesis("position_friction");
+  const Candidate model{made.data.axis, {{&slope, {0.2, 0.0, 0.0}}}};
+  for (const double sliding_by_inverse_model : {0.2, 2.0}) {
+    const Candidate by_inverse_model{made.data.axis, {{&slope, {sliding_by_inverse_model, 30.0, -30.0}}}};
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = model.effects[0];
+    Eigen::MatrixXd covariance = 1e-6 * fit.covariance;
+    drop_sizeless(made.forward, made.fitter, by_inverse_model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), sliding_by_inverse_model < 1.0 ? 1U : 0U) << sliding_by_inverse_model;
+  }
+}
+
 // Its own deviations are large because it goes with the effect's other numbers.
 TEST(Sizes, WhatIsMissedIsToldHoweverWideItsAmplitudeIs) {
   constexpr double amplitude_Nm = 3.8e-4;

@@ -14,15 +14,17 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-/// The closed loop's size of an effect as a share of the inverse model's; 1 where that does not have it.
+/// The closed loop's size of an effect as a share of the inverse model's, amplitudes of other units by their steps; 1 where
+/// that does not have it.
 double share_of_size(const Active& effect, const Candidate& by_inverse_model) {
   const auto same = std::ranges::find(by_inverse_model.effects, effect.hypothesis, &Active::hypothesis);
   if (same == by_inverse_model.effects.end()) return 1.0;
   double now = 0.0, before = 0.0;
   for (std::size_t j = 0; j < effect.q.size(); ++j) {
-    if (effect.hypothesis->parameters[j].kind != Kind::amplitude) continue;
-    now += effect.q[j] * effect.q[j];
-    before += same->q[j] * same->q[j];
+    const auto& parameter = effect.hypothesis->parameters[j];
+    if (parameter.kind != Kind::amplitude) continue;
+    now += std::pow(effect.q[j] / parameter.step, 2);
+    before += std::pow(same->q[j] / parameter.step, 2);
   }
   return before > 0.0 ? std::sqrt(now / before) : 1.0;
 }

@@ -29,7 +29,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 }
 
 /// Only the ends of the travel can have met something; what is soft, a fifth of it deep.
-std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs) {
+std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
   double low = 1e300, high = -1e300;
   for (const auto& run : runs) {
     low = std::min(low, run.table_position_m.minCoeff());

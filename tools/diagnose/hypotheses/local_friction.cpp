@@ -27,7 +27,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
 }
 
 /// All along the recorded travel, narrow, wider, and a twelfth of it wide; of the screw too where a force sensor tells.
-Grid places_of(const std::vector<Track>& runs) {
+Grid places_of(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
   double low_m = 1e300, high_m = -1e300;
   for (const auto& run : runs) {
     low_m = std::min(low_m, run.position_m.minCoeff());

@@ -39,7 +39,7 @@ bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
 
 /// One wave and a half over the travel, two, two and a half: what is between is found from these. Longer ones are slopes and
 /// bowls (on a real record one of twice the travel stood for all that depends on speed, and took every name's place).
-std::vector<std::vector<double>> periods_of(const std::vector<Track>& runs) {
+std::vector<std::vector<double>> periods_of(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
   constexpr int most_halves = 16;
   constexpr double least_period_m = 8e-3;
   double low_m = 1e300, high_m = -1e300;

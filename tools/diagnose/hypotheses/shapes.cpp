@@ -175,11 +175,4 @@ bool states_differ(const Active& active) {
   return std::max(-low, high) > std::min(active.hypothesis->clear_step, least_share * std::abs(active.q.front()));
 }
 
-Grid torque_limits() {
-  Grid grid;
-  for (double limit = 0.08; limit < 4.0; limit *= 1.12)  // NOLINT(bugprone-float-loop-counter): the last is of no matter
-    grid.push_back({limit});
-  return grid;
-}
-
 }  // namespace feedtwin::tools::diagnosis

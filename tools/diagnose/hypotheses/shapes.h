@@ -69,6 +69,5 @@ using Grid = std::vector<std::vector<double>>;
 [[nodiscard]] Grid whole_orders(int first, int last);
 [[nodiscard]] Grid ripple_orders();  ///< one and two a revolution, and everything between that is not whole
 [[nodiscard]] Grid frequencies(double low_Hz, double high_Hz);
-[[nodiscard]] Grid torque_limits();
 
 }  // namespace feedtwin::tools::diagnosis

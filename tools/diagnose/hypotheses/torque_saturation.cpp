@@ -1,6 +1,8 @@
 // Saturation: the drive gives no more than a limit.
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tools/diagnose/hypotheses/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
@@ -17,6 +19,17 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"limit_Nm", q[1]}};
 }
 
+/// Below the largest command: near it in small steps, since a limit that is met for some milliseconds only shows there.
+Grid limits_of(const std::vector<Track>& runs, const plant::AxisParameters& axis) {
+  double largest_N = 0.0;
+  for (const auto& run : runs) largest_N = std::max(largest_N, run.held_N.cwiseAbs().maxCoeff());
+  const double largest_Nm = largest_N / per_lead(axis.axis);
+  Grid grid{{0.98 * largest_Nm}, {0.95 * largest_Nm}};
+  for (double share = 0.9; share > 0.02; share *= 0.89)  // NOLINT(bugprone-float-loop-counter): the last is of no matter
+    grid.push_back({share * largest_Nm});
+  return grid;
+}
+
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   return q[0] > 0.5;
 }
@@ -29,7 +42,7 @@ Hypothesis torque_saturation() {
           .channel = "torque_cmd_Nm",
           .where = Where::time,
           .parameters = {{"share", Kind::amplitude, 1e-2, 0.0, 1.3}, {"limit_Nm", Kind::shape, 1e-3, 1e-3, 1e4}},
-          .shapes = torque_limits(),
+          .shapes = {},
           .apply = apply,
           .named = named,
           .admissible = possible,
@@ -37,6 +50,7 @@ Hypothesis torque_saturation() {
 
           .about_reversals = true,
           .confused_with = {"torque_gain_error"},
+          .shapes_for = limits_of,
           .friction = false};
 }
 
