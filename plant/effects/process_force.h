@@ -6,6 +6,11 @@
 // F_0 = mean_N, R = opposing_N, A = amplitude_N, f = frequency_Hz, t since the run began; start_s and end_s: the tool is in
 // the cut. It comes into it and leaves it over ramp_s, in proportion, half of that before and half after; at once where
 // that is none: a sub-step that is in the cut for a part then has that part of its mean.
+//
+// Or all of it opposes the motion, teeth and mean alike, as where a tool cuts both ways through a workpiece that lies
+// somewhere along the travel:
+//
+//   F = (R + A sin(2 pi f t + phase)) tanh(v / 0.5 mm/s)   from from_m to to_m, otherwise none
 
 #include <algorithm>
 #include <array>
@@ -54,6 +59,31 @@ class ProcessForce final : public Effect {
   TimeWave teeth_;
 };
 
+/// Part of a tool that is in a workpiece from one place to another: it comes in and goes out over a path of 0.2 mm.
+[[nodiscard]] inline double share_in_workpiece(double position_m, double from_m, double to_m) noexcept {
+  constexpr double over_m = 2e-4;
+  return std::clamp(std::min(position_m - from_m, to_m - position_m) / over_m + 0.5, 0.0, 1.0);
+}
+
+class ProcessForceAgainstMotion final : public Effect {
+ public:
+  ProcessForceAgainstMotion(const EffectContext& /*context*/, const EffectSetting& setting)
+      : opposing_N_(setting.values[0]),
+        from_m_(setting.values[4]),
+        to_m_(setting.values[5]),
+        teeth_(setting.values[1], setting.values[2], setting.values[3]) {}
+  [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
+    const double middle_m = m.position_m + 0.5 * m.h_s * m.velocity_m_per_s;
+    const double now_N = share_in_workpiece(middle_m, from_m_, to_m_) * (opposing_N_ + teeth_.mean_N(m));
+    const double against = std::tanh(m.velocity_m_per_s / process_turns_m_per_s);
+    return {now_N * against, std::max(0.0, now_N) / process_turns_m_per_s * (1.0 - against * against)};
+  }
+
+ private:
+  double opposing_N_, from_m_, to_m_;
+  TimeWave teeth_;
+};
+
 // name, unit, lowest, highest, preset, neutral, meaning
 // clang-format off: a line a parameter
 inline constexpr std::array process_force_parameters{
@@ -65,6 +95,15 @@ inline constexpr std::array process_force_parameters{
     EffectParameter{"end_s", "s", 0.0, 1e9, 1e9, {}, "it leaves the cut"},
     EffectParameter{"opposing_N", "N", 0.0, 100000.0, 0.0, 0.0, "mean force against the motion, whichever way it goes"},
     EffectParameter{"ramp_s", "s", 0.0, 10.0, 0.0, {}, "over what the tool comes into the cut and leaves it"},
+};
+
+inline constexpr std::array process_force_against_motion_parameters{
+    EffectParameter{"opposing_N", "N", 0.0, 100000.0, 0.0, 0.0, "mean force against the motion, whichever way it goes"},
+    EffectParameter{"amplitude_N", "N", 0.0, 1e4, 0.0, 0.0, "half of the alternating force from peak to peak"},
+    EffectParameter{"frequency_Hz", "Hz", 0.1, 2000.0, 100.0, {}, "teeth that pass in a second"},
+    EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "at the start of the run"},
+    EffectParameter{"from_m", "m", -1e3, 1e3, -1e3, {}, "table position from which on the tool is in the workpiece"},
+    EffectParameter{"to_m", "m", -1e3, 1e3, 1e3, {}, "and up to which it is"},
 };
 // clang-format on
 
@@ -80,6 +119,19 @@ inline constexpr EffectEntry process_force{
     .make = make_effect<ProcessForce>,
     .hooks = hooks_of<ProcessForce>(),
     .even_in_motion = true,
+};
+
+inline constexpr EffectEntry process_force_against_motion{
+    .id = "process_force_against_motion",
+    .component = EffectComponent::load,
+    .work = EffectWork::exchanges,
+    .meaning = "a force of the process acts on the table against its motion, with the passing of teeth",
+    .channels = "torque_cmd_Nm position_m power_W torque_sensor_Nm force_sensor_N",
+    .confused_with = "process_force",
+    .exciting_move = "the same move with and without cutting",
+    .parameters = process_force_against_motion_parameters,
+    .make = make_effect<ProcessForceAgainstMotion>,
+    .hooks = hooks_of<ProcessForceAgainstMotion>(),
 };
 
 }  // namespace feedtwin::plant::effects

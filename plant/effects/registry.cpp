@@ -95,6 +95,7 @@ constexpr std::array table{
     learned_mode,
     floor_vibration,
     process_force,
+    process_force_against_motion,
     hard_stop,
     lead_error,
     cyclic_lead_error,

@@ -91,8 +91,10 @@ Columns Asking::columns_of(const Task& task) const {
   if (!c.any) return c;
   c.gram = c.white.transpose() * c.white - c.on_q.transpose() * c.on_q;
   // where only the numbers' tolerance stands against it a ten-millionth may be left; less is rounding of the projection
-  for (Index k = 0; k < count; ++k)
+  for (Index k = 0; k < count; ++k) {
     if (!(c.gram(k, k) > 1e-11 * before[k])) c.gram(k, k) += 1e6 * (before[k] + 1e-30);  // nothing the model could not do
+    if (before[k] < 1e-20 * before.maxCoeff()) c.gram(k, k) += before.maxCoeff();  // of a run that is not there: rounding
+  }
   c.solver.compute(c.gram);
   c.amplitude = c.solver.solve(c.white.transpose() * left_.head(model_.rows()));
   return c;

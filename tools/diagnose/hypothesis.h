@@ -180,6 +180,9 @@ struct Hypothesis {
 
   /// Of a force that may act in a part of each run: where start and end of each stand among the working parameters; 0: none.
   std::size_t first_window = 0;
+  /// Its line has the motion's sign, and acts from one place along the travel to another: its shapes are the frequency,
+  /// these, and the whole travel.
+  bool turns = false;
 
   /// Of a state that each run begins with, as the run before it may have left it: the plant's number that holds it, and
   /// which working parameter is the first run's (others follow; the first run's is fixed at none, the numbers hold it).

@@ -39,8 +39,7 @@ bool hidden(const Active& active, const plant::AxisParameters& axis, std::size_t
 
 /// A line has a phase in each of several runs, and of those that are not there nothing is known.
 bool of_no_run(const Active& active, std::size_t parameter) {
-  const bool line = active.hypothesis->line_of != nullptr;
-  return line && active.hypothesis->parameters[parameter].kind == Kind::amplitude && !has_line(active.q, parameter / 2);
+  return active.hypothesis->line_of != nullptr && parameter < 2 * line_runs && !has_line(active.q, parameter / 2);
 }
 
 /// Intervals of what is reported, from the covariance of what was fitted.

@@ -12,6 +12,7 @@
 
 #include "tools/diagnose/asking.h"
 #include "tools/diagnose/edges.h"
+#include "tools/diagnose/workpiece.h"
 #include "tools/parallel.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -69,18 +70,36 @@ void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& mod
   }
 }
 
+/// Of the strongest lines those that act along a part of the travel, likewise: frequency, from where to where, all of it.
+void add_places(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& lines_in) {
+  constexpr double apart_Hz = 1.0;
+  std::vector<std::vector<double>> added;
+  std::vector<double> seen_Hz;
+  for (const auto& shape : kept) {
+    const auto near = [&](double seen) { return std::abs(seen - shape[0]) < apart_Hz; };
+    if (std::ranges::any_of(seen_Hz, near)) continue;  // grid points beside each other climb the same line
+    seen_Hz.push_back(shape[0]);
+    const double frequency_Hz = strongest_near(model, lines_in, shape[0]);
+    if (const auto place = place_of_line(model, lines_in, frequency_Hz))
+      added.push_back({frequency_Hz, place->first, place->second, shape.back()});
+  }
+  kept.insert(kept.end(), added.begin(), added.end());
+}
+
 /// The shapes that are worth asking about: of frequencies the strongest lines, some others for what chance does.
 std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const InverseModel& model, const Vector& white,
                                          const Fit& fit) {
   auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks(), fit.model.axis) : hypothesis.shapes;
   if (hypothesis.where != Where::frequency) return grid;
   constexpr std::size_t strongest = 12, spread = 12;
+  const Vector lines_in = hypothesis.turns ? turned(model, white) : white;
   std::erase_if(grid, [&](const auto& shape) { return shape[0] > model.tracks().front().highest_line_Hz() + 1e-9; });
   std::vector<std::pair<double, std::size_t>> lines;
-  for (std::size_t i = 0; i < grid.size(); ++i) lines.emplace_back(line_power(model, white, grid[i][0]), i);
+  for (std::size_t i = 0; i < grid.size(); ++i) lines.emplace_back(line_power(model, lines_in, grid[i][0]), i);
   std::ranges::sort(lines, std::greater{});
   std::vector<std::vector<double>> kept;
   for (std::size_t i = 0; i < std::min(strongest, lines.size()); ++i) kept.push_back(grid[lines[i].second]);
+  if (hypothesis.turns) add_places(kept, model, lines_in);
   for (std::size_t i = 0; i < grid.size(); i += 1 + grid.size() / spread) kept.push_back(grid[i]);
   if (hypothesis.first_window > 0) add_windows(kept, model, white, fit);
   return kept;

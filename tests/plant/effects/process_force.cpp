@@ -34,5 +34,33 @@ TEST(ProcessForce, CutsFromItsStartToItsEnd) {
   EXPECT_EQ(load_N(end_s, 1e-9), 0.0);
 }
 
+/// Both ways through a workpiece that lies between two places, and nowhere else.
+TEST(ProcessForceAgainstMotion, OpposesTheMotionTeethAndAllInTheWorkpiece) {
+  constexpr double opposing_N = 20.0, amplitude_N = 8.0, frequency_Hz = 50.0;
+  const effects::ProcessForceAgainstMotion process(
+      {test::smooth_axis(), make_axis_model(test::smooth_axis())},
+      {"process_force_against_motion", {opposing_N, amplitude_N, frequency_Hz, 0.0, -0.01, 0.02}, {}});
+  const auto load = [&](double position_m, double velocity_m_per_s, double time_s) {
+    return process.load({.position_m = position_m,
+                         .velocity_m_per_s = velocity_m_per_s,
+                         .sign = velocity_m_per_s < 0.0 ? -1.0 : 1.0,
+                         .acceleration_m_per_s2 = 0.0,
+                         .torque_Nm = 0.0,
+                         .table_load_N = 0.0,
+                         .h_s = 1e-6,
+                         .time_s = time_s,
+                         .tick_phase_s = 0.0});
+  };
+  constexpr double crest_s = 0.25 / frequency_Hz, trough_s = 0.75 / frequency_Hz;
+  for (const double v : {0.1, -0.1}) {
+    const double way = v < 0.0 ? -1.0 : 1.0;
+    EXPECT_NEAR(load(0.0, v, crest_s).force_N, way * (opposing_N + amplitude_N), 1e-3);
+    EXPECT_NEAR(load(0.0, v, trough_s).force_N, way * (opposing_N - amplitude_N), 1e-3);
+    for (const double outside_m : {-0.011, 0.021}) EXPECT_EQ(load(outside_m, v, crest_s).force_N, 0.0);
+  }
+  const double slope = (load(0.0, 1e-4, crest_s).force_N - load(0.0, 0.9e-4, crest_s).force_N) / 1e-5;
+  EXPECT_NEAR(load(0.0, 0.95e-4, crest_s).slope_Ns_per_m, slope, 1e-3 * slope);
+}
+
 }  // namespace
 }  // namespace feedtwin::plant

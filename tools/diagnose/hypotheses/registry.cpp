@@ -40,6 +40,7 @@ std::vector<Hypothesis> registered() {
       floor_vibration(),
       hidden_friction_compensation(),
       process_force(),
+      process_force_against_motion(),
       hard_stop(),
       count_loss(),
       screw_growth(),

@@ -41,6 +41,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Hypothesis floor_vibration();
 [[nodiscard]] Hypothesis hidden_friction_compensation();
 [[nodiscard]] Hypothesis process_force();
+[[nodiscard]] Hypothesis process_force_against_motion();
 [[nodiscard]] Hypothesis hard_stop();
 [[nodiscard]] Hypothesis count_loss();
 [[nodiscard]] Hypothesis screw_growth();

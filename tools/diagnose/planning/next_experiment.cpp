@@ -38,7 +38,7 @@ struct Answer {
 
 bool about_a_process(const std::vector<Question>& questions) {
   const auto has = [](const Candidate& model) {
-    return std::ranges::any_of(model.effects, [](const Active& a) { return a.hypothesis->id == "process_force"; });
+    return std::ranges::any_of(model.effects, [](const Active& a) { return told_id(*a.hypothesis) == "process_force"; });
   };
   return std::ranges::any_of(questions, [&has](const Question& q) { return has(q.truth) || has(q.other.model); });
 }

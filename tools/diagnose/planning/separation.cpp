@@ -46,7 +46,7 @@ plant::AxisParameters axis_of(const Move& move, const Candidate& model) {
   auto axis = without_stops(extended(model).common);
   axis.guide_mass_kg += move.more_on_table_kg;
   axis.axis.encoder_counts_per_rev *= finer_encoder;
-  if (!move.process_runs) std::erase_if(axis.effects, [](const auto& e) { return e.id == "process_force"; });
+  if (!move.process_runs) std::erase_if(axis.effects, [](const auto& e) { return e.id.starts_with("process_force"); });
   for (auto& effect : axis.effects)
     if (effect.id == "count_loss") effect.values.front() *= finer_encoder;
   return axis;
