@@ -132,6 +132,7 @@ inline constexpr EffectEntry process_force_against_motion{
     .parameters = process_force_against_motion_parameters,
     .make = make_effect<ProcessForceAgainstMotion>,
     .hooks = hooks_of<ProcessForceAgainstMotion>(),
+    .even_in_motion = true,
 };
 
 }  // namespace feedtwin::plant::effects

@@ -161,8 +161,7 @@ struct Hypothesis {
   /// So small that what it is confused with does the same to every sample, if that is as small.
   bool (*too_small_to_tell)(std::span<const double> q, double sample_s) = nullptr;
   /// The grid where it depends on where the axis was; in place of `shapes`.
-  std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs,
-                                                 const plant::AxisParameters& axis) = nullptr;
+  std::vector<std::vector<double>> (*shapes_for)(const std::vector<Track>& runs) = nullptr;
   /// Steps of the amplitudes that the screen looks over, times their own: for laws that no short step shows.
   std::vector<double> reaches = {1.0};
   /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.
@@ -180,8 +179,8 @@ struct Hypothesis {
 
   /// Of a force that may act in a part of each run: where start and end of each stand among the working parameters; 0: none.
   std::size_t first_window = 0;
-  /// Its line has the motion's sign, and acts from one place along the travel to another: its shapes are the frequency,
-  /// these, and the whole travel.
+  /// Its line has the motion's sign, and acts from one place along the travel to another: its shapes are the frequency and
+  /// these, along all of it where they are the same.
   bool turns = false;
 
   /// Of a state that each run begins with, as the run before it may have left it: the plant's number that holds it, and

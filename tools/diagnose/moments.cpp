@@ -22,22 +22,15 @@ std::vector<std::array<double, relaxation_s.size()>> strains_m(const Track& trac
   return all;
 }
 
-/// The longest of the runs'.
-double travel_m(const std::vector<Track>& runs) {
-  double longest_m = 0.0;
-  for (const auto& run : runs) longest_m = std::max(longest_m, run.position_m.maxCoeff() - run.position_m.minCoeff());
-  return longest_m;
-}
-
 /// Strain that follows the path up to where the spring gives way, as a part of that; begins without any.
-std::vector<std::array<double, yielding_share.size()>> yielding(const Track& track, double longest_m) {
+std::vector<std::array<double, yielding_share.size()>> yielding(const Track& track, double travel_m) {
   std::vector<std::array<double, yielding_share.size()>> all(static_cast<std::size_t>(track.size));
   constexpr double beyond_presliding_m = 2e-4;
   for (std::size_t k = 1; k < all.size(); ++k)
     for (std::size_t i = 0; i < yielding_share.size(); ++i) {
       const auto at = static_cast<Index>(k);
       const double path =
-          (track.position_m[at] - track.position_m[at - 1]) / std::max(beyond_presliding_m, yielding_share[i] * longest_m);
+          (track.position_m[at] - track.position_m[at - 1]) / std::max(beyond_presliding_m, yielding_share[i] * travel_m);
       all[k][i] = std::clamp(all[k - 1][i] + path, -1.0, 1.0);
     }
   return all;
@@ -79,7 +72,7 @@ MomentsOfRun moments_of(const InverseModel& model, const Segment& segment) {
   const Index step = std::max<Index>(1, std::lround(past_step_s / track.sample_s));
   const auto acceleration = [&track](Index k) { return slow_acceleration_m_per_s2(track, k); };
   const auto strains = strains_m(track);
-  const auto yields = yielding(track, travel_m(model.tracks()));
+  const auto yields = yielding(track, travel_of(model.tracks(), &Track::position_m).length_m());
   const auto since_rest = since_rest_s(track);
   const auto load = means_before(of_largest(track.command_N.cwiseAbs2()), track.sample_s);
   const auto use = means_before(of_largest(track.steady_m_per_s.cwiseAbs()), track.sample_s);

@@ -11,7 +11,7 @@ namespace feedtwin::tools::diagnosis {
 
 /// Of springs that give way with time: a bellows, a counterbalance cylinder that leaks.
 inline constexpr std::array relaxation_s{0.1, 0.3, 1.0, 3.0};
-/// Of springs that give way after some path, as parts of the longest travel: seals, and covers that are picked up one by
+/// Of springs that give way after some path, as parts of the runs' travel: seals, and covers that are picked up one by
 /// one.
 inline constexpr std::array yielding_share{0.01, 0.03, 0.1, 0.25, 0.5};
 /// Of what fades, sags, warms or thins with use.

@@ -25,10 +25,10 @@ Eigen::MatrixXd powers_of(const Track& track) {
 }
 
 struct WindowRanges {
-  double low_m = 1e300, high_m = -1e300, fastest = 1e-9, strongest_N = 1e-9, least_W = 1e300, most_W = -1e300;
-  explicit WindowRanges(const std::vector<Track>& tracks) {
+  Travel travel;
+  double fastest = 1e-9, strongest_N = 1e-9, least_W = 1e300, most_W = -1e300;
+  explicit WindowRanges(const std::vector<Track>& tracks) : travel(travel_of(tracks, &Track::position_m)) {
     for (const auto& t : tracks) {
-      low_m = std::min(low_m, t.position_m.minCoeff()), high_m = std::max(high_m, t.position_m.maxCoeff());
       fastest = std::max(fastest, t.steady_m_per_s.cwiseAbs().maxCoeff());
       strongest_N = std::max(strongest_N, t.held_N.cwiseAbs().maxCoeff());
       for (const double p : t.meter.power_W) least_W = std::min(least_W, p), most_W = std::max(most_W, p);
@@ -43,7 +43,7 @@ Vector column_of_window(const Track& track, std::size_t window, double reading_W
   const double each = 1.0 / static_cast<double>(track.meter.length);
   for (Index k = track.meter.starts[window]; k < track.meter.starts[window] + track.meter.length; ++k) {
     const double v = track.steady_m_per_s[k];
-    add_hats(track.position_m[k], all.low_m, all.high_m, window_places, each, row, window_readings);
+    add_hats(track.position_m[k], all.travel.low_m, all.travel.high_m, window_places, each, row, window_readings);
     add_hats(std::sqrt(std::abs(v) / all.fastest), 0.0, 1.0, window_speeds / 2, each, row,
              window_readings + window_places + (v > 0.0 ? 0 : window_speeds / 2));
     add_hats(track.held_N[k] / all.strongest_N, -1.0, 1.0, window_commands, each, row,

@@ -70,7 +70,7 @@ void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& mod
   }
 }
 
-/// Of the strongest lines those that act along a part of the travel, likewise: frequency, from where to where, all of it.
+/// Of the strongest lines those that act along a part of the travel, likewise: frequency, from where to where.
 void add_places(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& lines_in) {
   constexpr double apart_Hz = 1.0;
   std::vector<std::vector<double>> added;
@@ -81,7 +81,7 @@ void add_places(std::vector<std::vector<double>>& kept, const InverseModel& mode
     seen_Hz.push_back(shape[0]);
     const double frequency_Hz = strongest_near(model, lines_in, shape[0]);
     if (const auto place = place_of_line(model, lines_in, frequency_Hz))
-      added.push_back({frequency_Hz, place->first, place->second, shape.back()});
+      added.push_back({frequency_Hz, place->first, place->second});
   }
   kept.insert(kept.end(), added.begin(), added.end());
 }
@@ -89,7 +89,7 @@ void add_places(std::vector<std::vector<double>>& kept, const InverseModel& mode
 /// The shapes that are worth asking about: of frequencies the strongest lines, some others for what chance does.
 std::vector<std::vector<double>> grid_of(const Hypothesis& hypothesis, const InverseModel& model, const Vector& white,
                                          const Fit& fit) {
-  auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks(), fit.model.axis) : hypothesis.shapes;
+  auto grid = hypothesis.shapes_for != nullptr ? hypothesis.shapes_for(model.tracks()) : hypothesis.shapes;
   if (hypothesis.where != Where::frequency) return grid;
   constexpr std::size_t strongest = 12, spread = 12;
   const Vector lines_in = hypothesis.turns ? turned(model, white) : white;

@@ -167,6 +167,15 @@ Vector as_quiet_as(const Vector& slip_m, double count_m) {
 
 }  // namespace
 
+Travel travel_of(const std::vector<Track>& runs, Vector Track::* position) {
+  Travel travel;
+  for (const auto& run : runs) {
+    travel.low_m = std::min(travel.low_m, (run.*position).minCoeff());
+    travel.high_m = std::max(travel.high_m, (run.*position).maxCoeff());
+  }
+  return travel;
+}
+
 Vector about_sample(const Vector& after) {
   Vector out = after;
   const Index n = after.size();

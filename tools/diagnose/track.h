@@ -85,6 +85,14 @@ struct TrackSettings {
 [[nodiscard]] std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const plant::AxisParameters& axis,
                                              const TrackSettings& settings = {});
 
+/// From where to where the axis came in any of the runs.
+struct Travel {
+  double low_m = 1e300, high_m = -1e300;
+  [[nodiscard]] double length_m() const { return high_m - low_m; }
+};
+/// @param position of the motor, or of the table
+[[nodiscard]] Travel travel_of(const std::vector<Track>& runs, Vector Track::* position);
+
 /// Mean over the sample before and the sample after: from forces over a sample to forces about it.
 [[nodiscard]] Vector about_sample(const Vector& after);
 

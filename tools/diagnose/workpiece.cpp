@@ -23,23 +23,14 @@ struct UpTo {
   }
 };
 
-struct Travel {
-  double low_m = 1e300, high_m = -1e300;
+double position_m(const Travel& travel, std::size_t place) {
+  return travel.low_m + travel.length_m() * static_cast<double>(place) / static_cast<double>(places);
+}
 
-  explicit Travel(const std::vector<Track>& runs) {
-    for (const auto& run : runs) {
-      low_m = std::min(low_m, run.table_position_m.minCoeff());
-      high_m = std::max(high_m, run.table_position_m.maxCoeff());
-    }
-  }
-  [[nodiscard]] double at_m(std::size_t place) const {
-    return low_m + (high_m - low_m) * static_cast<double>(place) / static_cast<double>(places);
-  }
-  [[nodiscard]] std::size_t place_of(double position_m) const {
-    const double share = (position_m - low_m) / (high_m - low_m + 1e-12);
-    return std::min(places - 1, static_cast<std::size_t>(share * static_cast<double>(places)));
-  }
-};
+std::size_t place_at(const Travel& travel, double position_m) {
+  const double share = (position_m - travel.low_m) / (travel.length_m() + 1e-12);
+  return std::min(places - 1, static_cast<std::size_t>(share * static_cast<double>(places)));
+}
 
 /// Means over a tenth of a second: friction of another size is no line, but turned with the motion it stands above any.
 Vector slow_part(const Vector& rows) {
@@ -61,7 +52,7 @@ UpTo up_to_places(const InverseModel& model, const Segment& s, const Vector& row
   const double per_row = 2.0 * std::numbers::pi * frequency_Hz * track.row_s();
   UpTo up;
   for (Index k = 0; k < s.size; ++k) {
-    const std::size_t place = travel.place_of(track.table_position_m[model.sample_of(s, k)]) + 1;
+    const std::size_t place = place_at(travel, track.table_position_m[model.sample_of(s, k)]) + 1;
     up.sum[place] += rows[s.start + k] * std::polar(1.0, per_row * static_cast<double>(k));
     up.rows[place] += 1.0;
   }
@@ -84,9 +75,10 @@ Vector turned(const InverseModel& model, const Vector& rows) {
 }
 
 std::optional<std::pair<double, double>> place_of_line(const InverseModel& model, const Vector& rows, double frequency_Hz) {
-  constexpr double costs = 10.0, times_as_much = 1.1;  // of the logarithm of pairs of places
-  constexpr std::size_t least_places = places / 8;
-  const Travel travel(model.tracks());
+  // what the best of ten thousand pairs of places gains by chance, and what a model's mistakes about reversals bring
+  constexpr double by_chance = 10.0, times_as_much = 1.1;
+  constexpr std::size_t least_places = places / 8, most_places = 17 * places / 20;
+  const Travel travel = travel_of(model.tracks(), &Track::table_position_m);
   std::vector<UpTo> all;
   for (const auto& s : model.segments())
     if (model.equations()[s.equation].guide && s.size > 0) all.push_back(up_to_places(model, s, rows, frequency_Hz, travel));
@@ -95,11 +87,12 @@ std::optional<std::pair<double, double>> place_of_line(const InverseModel& model
     for (const auto& up : all) sum += up.power(from, to);
     return sum;
   };
-  double most = times_as_much * power(0, places) + costs;
+  double most = times_as_much * power(0, places) + by_chance;
   std::optional<std::pair<double, double>> best;
   for (std::size_t from = 0; from + least_places <= places; ++from)
-    for (std::size_t to = from + least_places; to <= places; ++to)
-      if (const double now = power(from, to); now > most) most = now, best = {travel.at_m(from), travel.at_m(to)};
+    for (std::size_t to = from + least_places; to <= std::min(places, from + most_places); ++to)
+      if (const double now = power(from, to); now > most)
+        most = now, best = {position_m(travel, from), position_m(travel, to)};
   return best;
 }
 

@@ -13,7 +13,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] Vector turned(const InverseModel& model, const Vector& rows);
 
 /// From where to where along the travel a line acts, in all runs alike, each with a phase of its own; none where it acts
-/// along all of it as well.
+/// along all of it, or nearly.
 /// @param rows whitened; turned
 [[nodiscard]] std::optional<std::pair<double, double>> place_of_line(const InverseModel& model, const Vector& rows,
                                                                      double frequency_Hz);

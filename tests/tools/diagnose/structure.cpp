@@ -9,7 +9,6 @@
 #include <functional>
 #include <numbers>
 #include <random>
-#include <string>
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/lines.h"
@@ -206,32 +205,6 @@ TEST_F(Runs, ASpringThatGivesWayIsPredictedThoughNoPlaceHasItsForce) {
   const auto found = structure.remaining(gives_way);
   EXPECT_GT(found.share, 0.85);
   EXPECT_GT(found.gives_way, 0.1);
-}
-
-// A seal that clings to where it was, and gives way after three millimetres: along strokes of any length, at any speed.
-TEST(Structure, WhatGivesWayAfterAPathIsPredictedWhereItWasNotSeen) {
-  auto runs = Runs::made();
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    auto& position_m = runs[r].channels.at(std::string(tools::channel::position_m));
-    for (std::size_t k = 0; k < position_m.size(); ++k) {
-      const double turn = 2.0 * std::numbers::pi * static_cast<double>(k) * runs[r].sample_s;
-      position_m[k] = 0.010 * std::sin(0.31 * turn + static_cast<double>(r)) + 0.006 * std::sin(0.83 * turn) +
-                      0.003 * std::sin(1.9 * turn + 2.0 * static_cast<double>(r));
-    }
-  }
-  const InverseModel model(make_tracks(runs, plant::source_axis()), plant::source_axis());
-  std::mt19937 random{11};  // NOLINT(bugprone-random-generator-seed): the same runs every time
-  std::normal_distribution<double> normal;
-  Vector rows = Vector::Zero(model.rows());
-  for (const auto& s : model.segments()) {
-    const Track& t = model.tracks()[s.run];
-    std::vector<double> clings{0.0};
-    for (Index k = 1; k < t.size; ++k)
-      clings.push_back(std::clamp(clings.back() + (t.position_m[k] - t.position_m[k - 1]) / 0.003, -1.0, 1.0));
-    for (Index i = 0; i < s.size; ++i)
-      rows[s.start + i] = normal(random) + 2.0 * clings[static_cast<std::size_t>(model.sample_of(s, i))];
-  }
-  EXPECT_GT(RepeatableStructure(model).remaining(rows).share, 0.45) << "0.29 of it by place, speed and time";
 }
 
 TEST_F(Runs, ABeatIsFoundBelowTheNoiseWithItsPhaseInEachRun) {

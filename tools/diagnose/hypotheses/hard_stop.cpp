@@ -29,19 +29,15 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 }
 
 /// Only the ends of the travel can have met something; what is soft, a fifth of it deep.
-std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
-  double low = 1e300, high = -1e300;
-  for (const auto& run : runs) {
-    low = std::min(low, run.table_position_m.minCoeff());
-    high = std::max(high, run.table_position_m.maxCoeff());
-  }
+std::vector<std::vector<double>> ends_of(const std::vector<Track>& runs) {
+  const Travel travel = travel_of(runs, &Track::table_position_m);
   Grid grid;
   std::vector<double> depths{5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 4e-3, 1e-2};
   for (const double share : {0.05, 0.1, 0.15, 0.2})
-    if (share * (high - low) > 1.2 * depths.back()) depths.push_back(share * (high - low));
+    if (share * travel.length_m() > 1.2 * depths.back()) depths.push_back(share * travel.length_m());
   for (const double depth : depths) {
-    grid.push_back({high - depth, 1.0});
-    grid.push_back({low + depth, -1.0});
+    grid.push_back({travel.high_m - depth, 1.0});
+    grid.push_back({travel.low_m + depth, -1.0});
   }
   return grid;
 }

@@ -21,7 +21,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 /// Speed, lead, and whether the motion tells the set point.
-Grid shapes_for(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
+Grid shapes_for(const std::vector<Track>& runs) {
   Grid grid{{1e-3, 0.0, 1.0},    {2.5e-3, 0.0, 1.0},  {5e-3, 0.0, 1.0},   {1e-3, 0.01, 1.0},
             {2.5e-3, 0.01, 1.0}, {2.5e-3, 0.02, 1.0}, {2.5e-3, 0.04, 1.0}};
   if (runs.front().setpoints.of_reference.velocity_m_per_s.empty()) return grid;

@@ -27,19 +27,15 @@ bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
 }
 
 /// All along the recorded travel, narrow, wider, and a twelfth of it wide; of the screw too where a force sensor tells.
-Grid places_of(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
-  double low_m = 1e300, high_m = -1e300;
-  for (const auto& run : runs) {
-    low_m = std::min(low_m, run.position_m.minCoeff());
-    high_m = std::max(high_m, run.position_m.maxCoeff());
-  }
+Grid places_of(const std::vector<Track>& runs) {
+  const Travel travel = travel_of(runs, &Track::position_m);
   const bool told = std::ranges::any_of(runs, [](const Track& run) { return run.force_sensor_N.size() > 0; });
-  const double travel_m = high_m - low_m, narrow_m = std::max(0.002, travel_m / 150.0);
+  const double travel_m = travel.length_m(), narrow_m = std::max(0.002, travel_m / 150.0);
   Grid grid;
   for (const double width_m : {narrow_m, 3.0 * narrow_m, travel_m / 12.0})
     for (int i = 0; i * width_m < travel_m; ++i)
       for (const double on_screw : {0.0, 1.0})
-        if (told || on_screw == 0.0) grid.push_back({low_m + i * width_m, width_m, on_screw});
+        if (told || on_screw == 0.0) grid.push_back({travel.low_m + i * width_m, width_m, on_screw});
   return grid;
 }
 

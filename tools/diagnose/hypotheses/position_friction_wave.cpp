@@ -39,17 +39,12 @@ bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
 
 /// One wave and a half over the travel, two, two and a half: what is between is found from these. Longer ones are slopes and
 /// bowls (on a real record one of twice the travel stood for all that depends on speed, and took every name's place).
-std::vector<std::vector<double>> periods_of(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
+std::vector<std::vector<double>> periods_of(const std::vector<Track>& runs) {
   constexpr int most_halves = 16;
   constexpr double least_period_m = 8e-3;
-  double low_m = 1e300, high_m = -1e300;
-  for (const auto& run : runs) {
-    low_m = std::min(low_m, run.position_m.minCoeff());
-    high_m = std::max(high_m, run.position_m.maxCoeff());
-  }
+  const double travel_m = travel_of(runs, &Track::position_m).length_m();
   std::vector<std::vector<double>> grid;
-  for (int halves = 3; halves <= most_halves; ++halves)
-    grid.push_back({std::max(least_period_m, 2.0 * (high_m - low_m) / halves)});
+  for (int halves = 3; halves <= most_halves; ++halves) grid.push_back({std::max(least_period_m, 2.0 * travel_m / halves)});
   return grid;
 }
 

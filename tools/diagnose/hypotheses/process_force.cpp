@@ -28,14 +28,20 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   add(sum.guide_N, force_N.cwiseProduct(covered(cuts, q[ramp], track.size, track.sample_s)));
 }
 
-constexpr std::size_t own_opposing = 2 * line_runs + 1, from = own_opposing + 1, to = from + 1, travel = to + 1;
+constexpr std::size_t own_opposing = 2 * line_runs + 1, from = own_opposing + 1, to = from + 1;
+
+/// Otherwise it acts along all of the travel.
+bool has_place(std::span<const double> q) {
+  return q[to] > q[from];
+}
 
 void apply_against_motion(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   Vector force_N = Vector::Constant(track.size, q[own_opposing]);
   add_line(track, q, force_N);
+  const bool somewhere = has_place(q);
   for (Index k = 0; k < track.size; ++k)
-    force_N[k] *= plant::effects::share_in_workpiece(track.table_position_m[k], q[from], q[to]) *
+    force_N[k] *= (somewhere ? plant::effects::share_in_workpiece(track.table_position_m[k], q[from], q[to]) : 1.0) *
                   std::tanh(track.centred_m_per_s[k] / plant::effects::process_turns_m_per_s);
   add(sum.guide_N, force_N);
 }
@@ -51,10 +57,9 @@ std::vector<NamedValue> named_against_motion(std::span<const double> q, const pl
 /// Along all of the travel a line that turns with the motion is the drive's: a real one's rectifier hums at 100 Hz with the
 /// sign of its torque. And a tool does not pull: the teeth go with a mean that opposes the motion.
 bool possible_against_motion(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  constexpr double most_of_travel = 0.85, least_of_amplitude = 0.5;
+  constexpr double least_of_amplitude = 0.5;
   const double amplitude_N = line_amplitude(q);
-  return q[to] - q[from] < most_of_travel * q[travel] && amplitude_N > least_of_mean * q[own_opposing] &&
-         q[own_opposing] > least_of_amplitude * amplitude_N;
+  return has_place(q) && amplitude_N > least_of_mean * q[own_opposing] && q[own_opposing] > least_of_amplitude * amplitude_N;
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -90,19 +95,13 @@ std::vector<WorkingParameter> parameters_against_motion() {
   all.push_back({"opposing_N", Kind::amplitude, 0.1, 0.0, 1e5});
   all.push_back({"from_m", Kind::shape, 2e-4});
   all.push_back({"to_m", Kind::shape, 2e-4});
-  all.push_back({"travel_m", Kind::fixed});
   return all;
 }
 
-/// Along all of the runs' travel; the screen adds, to the strongest, from where to where they act.
-Grid along_the_travel(const std::vector<Track>& runs, const plant::AxisParameters& /*axis*/) {
-  double low_m = 1e300, high_m = -1e300;
-  for (const auto& run : runs) {
-    low_m = std::min(low_m, run.table_position_m.minCoeff());
-    high_m = std::max(high_m, run.table_position_m.maxCoeff());
-  }
+/// Along all of the travel; the screen adds, to the strongest, from where to where they act.
+Grid along_the_travel() {
   Grid grid = frequencies(12.0, 400.0);
-  for (auto& shape : grid) shape.insert(shape.end(), {low_m, high_m, high_m - low_m});
+  for (auto& shape : grid) shape.insert(shape.end(), {0.0, 0.0});
   return grid;
 }
 
@@ -140,8 +139,7 @@ Hypothesis process_force_against_motion() {
   law.id = "process_force_against_motion";
   law.told_as = "process_force";
   law.parameters = parameters_against_motion();
-  law.shapes = {};
-  law.shapes_for = along_the_travel;
+  law.shapes = along_the_travel();
   law.apply = apply_against_motion;
   law.named = named_against_motion;
   law.admissible = possible_against_motion;

@@ -11,22 +11,21 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  const double limit = q[1] * per_lead(view.transmission());
-  add(sum.drive_N, q[0] * about_sample((view.track.held_N.cwiseMax(-limit).cwiseMin(limit) - view.track.held_N).eval()));
+  const Vector& held_N = view.track.held_N;
+  add(sum.drive_N, q[0] * about_sample((held_N.cwiseMax(-q[1]).cwiseMin(q[1]) - held_N).eval()));
 }
 
-std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"limit_Nm", q[1]}};
+std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& axis) {
+  return {{"limit_Nm", q[1] / per_lead(axis.axis)}};
 }
 
 /// Below the largest command: near it in small steps, since a limit that is met for some milliseconds only shows there.
-Grid limits_of(const std::vector<Track>& runs, const plant::AxisParameters& axis) {
+Grid limits_of(const std::vector<Track>& runs) {
   double largest_N = 0.0;
   for (const auto& run : runs) largest_N = std::max(largest_N, run.held_N.cwiseAbs().maxCoeff());
-  const double largest_Nm = largest_N / per_lead(axis.axis);
-  Grid grid{{0.98 * largest_Nm}, {0.95 * largest_Nm}};
+  Grid grid{{0.98 * largest_N}, {0.95 * largest_N}};
   for (double share = 0.9; share > 0.02; share *= 0.89)  // NOLINT(bugprone-float-loop-counter): the last is of no matter
-    grid.push_back({share * largest_Nm});
+    grid.push_back({share * largest_N});
   return grid;
 }
 
@@ -41,7 +40,7 @@ Hypothesis torque_saturation() {
           .component = "drive",
           .channel = "torque_cmd_Nm",
           .where = Where::time,
-          .parameters = {{"share", Kind::amplitude, 1e-2, 0.0, 1.3}, {"limit_Nm", Kind::shape, 1e-3, 1e-3, 1e4}},
+          .parameters = {{"share", Kind::amplitude, 1e-2, 0.0, 1.3}, {"limit_N", Kind::shape, 1.0, 1.0, 1e7}},
           .shapes = {},
           .apply = apply,
           .named = named,
