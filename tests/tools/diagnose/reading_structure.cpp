@@ -77,6 +77,20 @@ TEST(ReadingStructure, NothingStandsOutOfAnAxisThatTheModelHolds) {
   }
 }
 
+TEST(ReadingStructure, AMetersFewReadingsKeepTimeByChanceMoreThanASensors) {
+  const auto stands_out = [](std::string_view channel, double share) {
+    ReadingStructure reading;
+    reading.channel = channel;
+    reading.follows = Follows::time;
+    reading.share = share;
+    reading.remainder = 1.0;
+    return reading.stands_out();
+  };
+  EXPECT_FALSE(stands_out(tools::channel::power_W, 0.13));
+  EXPECT_TRUE(stands_out(tools::channel::power_W, 0.45));
+  EXPECT_TRUE(stands_out(tools::channel::scale_position_m, 0.13));
+}
+
 // A fan on the drive's supply, half of every 1.57 s.
 TEST(ReadingStructure, ALoadThatKeepsTimeIsInThePower) {
   const auto told = told_of([](tools::Recording& run) {

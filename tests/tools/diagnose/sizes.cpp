@@ -95,6 +95,31 @@ TEST(Sizes, AmplitudesOfOtherUnitsAreWeighedByTheirSteps) {
   }
 }
 
+// How far it would go and how long it would take make up for each other; how fast it goes is known, if it is.
+TEST(Sizes, OfADriftThatNoRunSeesTheEndOfTheRateIsWhatIsKnown) {
+  const Cogged made;
+  const auto& drift = hypothesis("friction_drift");
+  const std::vector<double> q{0.26, 49.0, 0.0, 0.0, 0.0, 0.0};
+  const Candidate model{made.data.axis, {{&drift, q}}};
+  const double own = 0.13, of_the_rate = 0.01, time_constant_s = 20.0;
+  for (const bool makes_up : {true, false}) {
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = model.effects[0];
+    const auto unknowns = static_cast<Index>(freedom(drift)), from = fit.base_count();
+    Eigen::MatrixXd covariance = fit.covariance;
+    covariance.bottomRows(unknowns).setZero();
+    covariance.rightCols(unknowns).setZero();
+    covariance.bottomRightCorner(unknowns, unknowns).diagonal().setConstant(1e-6);
+    covariance(from, from) = own * own;
+    covariance(from + 1, from + 1) = time_constant_s * time_constant_s;
+    const double together = makes_up ? std::sqrt(own * own - of_the_rate * of_the_rate) * time_constant_s : 0.0;
+    covariance(from, from + 1) = covariance(from + 1, from) = together;
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), makes_up ? 1U : 0U);
+  }
+}
+
 // Its own deviations are large because it goes with the effect's other numbers.
 TEST(Sizes, WhatIsMissedIsToldHoweverWideItsAmplitudeIs) {
   constexpr double amplitude_Nm = 3.8e-4;

@@ -29,20 +29,41 @@ double share_of_size(const Active& effect, const Candidate& by_inverse_model) {
   return before > 0.0 ? std::sqrt(now / before) : 1.0;
 }
 
-/// How far an effect's amplitudes are from zero, per amplitude. @param from where its unknowns begin
-double deviations_from_nothing(const Active& effect, const Eigen::MatrixXd& covariance, Index from) {
-  std::vector<Index> amplitudes;
-  std::vector<double> size;
+/// Where an effect's unknowns stand in a covariance, those that its amplitudes are and those that nobody knows.
+struct Told {
+  std::vector<Index> amplitudes, untold;
+  std::vector<double> size;  ///< of each amplitude
+};
+
+/// Of a change of friction that is far from over when the runs end, only how fast it goes is known: how long it would take
+/// and how far it would go make up for each other. A drift of 0.8 % a second was 2 deviations from nothing with its time
+/// constant free, and what a table made of it.
+Told told_of(const Active& effect, const Eigen::MatrixXd& covariance, Index from) {
+  constexpr double unknown = 1.0 / 3.0;  // of itself
+  Told told;
   Index at = from;
   for (std::size_t j = 0; j < effect.q.size(); ++j) {
     const Kind kind = effect.hypothesis->parameters[j].kind;
-    if (kind == Kind::amplitude && effect.q[j] != 0.0) amplitudes.push_back(at), size.push_back(effect.q[j]);
-    at += fitted(kind);
+    if (!fitted(kind)) continue;
+    if (kind == Kind::amplitude && effect.q[j] != 0.0) told.amplitudes.push_back(at), told.size.push_back(effect.q[j]);
+    const bool untold = kind == Kind::shape && std::sqrt(covariance(at, at)) > unknown * std::abs(effect.q[j]);
+    if (untold && effect.hypothesis->follows_any_law) told.untold.push_back(at);
+    ++at;
   }
-  if (size.empty()) return 0.0;
-  const Eigen::Map<const Vector> value(size.data(), static_cast<Index>(size.size()));
-  const Eigen::MatrixXd spread = covariance(amplitudes, amplitudes);
-  return std::sqrt(std::max(0.0, value.dot(solved(spread, value))) / static_cast<double>(size.size()));
+  return told;
+}
+
+/// How far an effect's amplitudes are from zero, per amplitude. @param from where its unknowns begin
+double deviations_from_nothing(const Active& effect, const Eigen::MatrixXd& covariance, Index from) {
+  const Told told = told_of(effect, covariance, from);
+  if (told.size.empty()) return 0.0;
+  const Eigen::Map<const Vector> value(told.size.data(), static_cast<Index>(told.size.size()));
+  Eigen::MatrixXd spread = covariance(told.amplitudes, told.amplitudes);
+  if (!told.untold.empty()) {
+    const Eigen::MatrixXd together = covariance(told.amplitudes, told.untold);
+    spread -= together * inverse_of(covariance(told.untold, told.untold)) * together.transpose();
+  }
+  return std::sqrt(std::max(0.0, value.dot(solved(spread, value))) / static_cast<double>(told.size.size()));
 }
 
 /// Of a channel's error, as a share of it.
