@@ -8,7 +8,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double most = 0.45;  // a drive scaled by the peak where the rms is meant is 0.29 or 0.41 off
+constexpr double most = 0.25;
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
