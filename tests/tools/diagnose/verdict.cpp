@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/unknown.h"
@@ -20,10 +21,16 @@ struct Weighed {
   bool with_nothing_named = false, with_a_name = false;
 };
 
-Weighed weighed(double spring_N_per_m) {
+/// @param noise_N of the command, white, at the table
+Weighed weighed(double spring_N_per_m, double noise_N = 0.0) {
   auto truth = plant::source_axis();
   if (spring_N_per_m > 0.0) truth.effects.push_back(tests::effect("cable_spring", {{"stiffness_N_per_m", spring_N_per_m}}));
-  const tools::Case data = tests::short_case(truth, plant::source_axis());
+  tools::Case data = tests::short_case(truth, plant::source_axis());
+  std::mt19937 chance(1);
+  std::normal_distribution<double> noise_Nm(0.0, noise_N * plant::source_axis().axis.lead_m / (2.0 * std::numbers::pi));
+  for (auto& run : data.fit)
+    for (double& torque_Nm : run.channels.at(std::string(tools::channel::torque_cmd_Nm)))
+      torque_Nm += noise_N > 0.0 ? noise_Nm(chance) : 0.0;
   const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
   const Candidate nothing{data.axis, {}}, name{data.axis, {{&hypothesis("cogging"), {1e-4, 0.0, 8.0}}}};
@@ -48,6 +55,18 @@ TEST(BeyondTheCatalogue, ATraceOfStructureIsNot) {
   ASSERT_GT(trace.structure.structured_N(), 0.09);
   ASSERT_GT(trace.structure.share, 0.1);
   EXPECT_FALSE(trace.with_nothing_named);
+}
+
+// So much of a noisy axis, with nothing hidden, has been seen to repeat.
+TEST(BeyondTheCatalogue, AShareThatAnAxisWithNothingHiddenHadIsNotHoweverManyNewtons) {
+  const auto seen = weighed(260.0, 8.0), more = weighed(300.0, 8.0);
+  ASSERT_GT(seen.structure.structured_N(), 1.0);
+  ASSERT_GT(seen.structure.share, 0.127);
+  ASSERT_LT(seen.structure.share, 0.14);
+  EXPECT_FALSE(seen.with_nothing_named);
+  EXPECT_FALSE(seen.with_a_name);
+  ASSERT_GT(more.structure.share, 0.14);
+  EXPECT_TRUE(more.with_nothing_named);
 }
 
 TEST(BeyondTheCatalogue, MuchStructureIsUnknownBesideANameToo) {
