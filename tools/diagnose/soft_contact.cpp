@@ -32,7 +32,9 @@ std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fi
     return one.hypothesis == &own || easily_confused(*one.hypothesis, own) || one.hypothesis->id == "screw_compliance";
   };
   const auto bristle = std::ranges::find(told.recalibrated, "ball_screw.sigma0_N_per_m", &Recalibrated::key);
-  if (bristle == told.recalibrated.end() || std::ranges::any_of(told.effects, takes_it_up)) return std::nullopt;
+  // where the law itself was free to take it, beside the bristle, and did not, it is none
+  if (has(fit.model, own) || bristle == told.recalibrated.end() || std::ranges::any_of(told.effects, takes_it_up))
+    return std::nullopt;
   const auto& now = bristle->now;
   const double force_N = mean(fit.model.axis.ball_screw.coulomb_N), yields_m = force_N / now.value;
   if (now.value > softened * bristle->was || now.high > surely_softened * bristle->was || yields_m < least_yield_m)

@@ -80,8 +80,20 @@ TEST(PreslidingMemory, IsToldFromABristleThatAloneHoldsIt) {
   EXPECT_FALSE(told(0.16, 0.03)) << "which may be one of 0.19";
   EXPECT_FALSE(told(0.1, 0.004, {tests::named("backlash", "gap_m", 1e-6)}));
   EXPECT_TRUE(told(0.1, 0.004, {tests::named("cogging", "amplitude_Nm", 0.01)}));
+  fit.model.effects = {{&hypothesis("presliding_memory"), {0.6, 7e-6}}};
+  EXPECT_FALSE(told(0.1, 0.004)) << "the law was there to take it, and did not";
+  fit.model.effects.clear();
   fit.model.axis.ball_screw.coulomb_N = {file_N_per_m * 4e-7, file_N_per_m * 4e-7};
   EXPECT_FALSE(told(0.1, 0.004)) << "over 4 um a bristle of a tenth yields too";
+}
+
+TEST(HardStop, MayBeABufferButNoSpringOfTheWholeTravel) {
+  const auto can_be = [](double stiffness_N_per_m) {
+    return possible({&hypothesis("hard_stop"), {stiffness_N_per_m, 20.0, 0.15, 1.0}}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(1e6));
+  EXPECT_TRUE(can_be(480.0)) << "rubber, 45 mm deep";
+  EXPECT_FALSE(can_be(200.0));
 }
 
 TEST(PositionFriction, MayBeOfTheViscousPartAlone) {

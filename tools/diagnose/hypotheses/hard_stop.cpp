@@ -25,7 +25,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 1e3;  // softer is a spring
+  return q[0] > 300.0;  // softer is a spring
 }
 
 /// Only the ends of the travel can have met something; what is soft, a fifth of it deep.
