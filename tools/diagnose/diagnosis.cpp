@@ -74,6 +74,7 @@ class Diagnosing {
  private:
   /// What the inverse model asks for and the closed loop bears out.
   void explain() {
+    fitter_.take_effects(motor_as_it_sets_in(forward_, fitter_, progress_));
     found_ = search(fitter_, Bar{}, progress_);
     fit_ = found_.final;
     settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
@@ -113,7 +114,7 @@ class Diagnosing {
 
   /// Where the motor's friction sets in over a path, what was found without it stood for that path about every reversal.
   void search_anew_if_the_motor_sets_in() {
-    const bool known = motor_presliding_m(data_.axis) > 0.0;
+    const bool known = motor_presliding_m(fit_.model.axis) > 0.0;
     settled_ = ask_how_motor_sets_in(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
     if (known || motor_presliding_m(fit_.model.axis) == 0.0) return;
     fitter_.take_effects(fit_.model.axis.effects);
@@ -239,11 +240,10 @@ class Diagnosing {
     forward_.learn_meter_noise(with_phases_of(told_, result_.updated));
     ForwardModel simulated(unseen, data_);
     simulated.take_meter_from(forward_);
-    const Candidate given{data_.axis, {}};
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
-    const auto as_given = followed(held_out, given), as_recalibrated = followed(held_out, recalibrated_only),
-               as_told = followed(held_out, told_unseen);
+    const auto as_given = followed(held_out, Candidate{data_.axis, {}}),
+               as_recalibrated = followed(held_out, recalibrated_only), as_told = followed(held_out, told_unseen);
     result_.holdout_inverse = figures(as_given, as_recalibrated, as_told);
     result_.force_error = force_errors(as_given, as_recalibrated, as_told);
     result_.holdout = figures(simulated, data_.axis, extended(recalibrated_only), updated_unseen);

@@ -137,7 +137,8 @@ Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without,
   Unseen told;
   for (const double g : gains) told.gain += std::max(g, most_lost);
   told.folds = static_cast<std::size_t>(std::ranges::count_if(gains, [](double g) { return g > 1.0; }));
-  told.everywhere = told.folds == bar.folds && told.gain > 0.8 * verdict.gain;
+  const std::size_t may_rest = hypothesis.first_window > 0 ? 1 : 0;  // folds that a process does not act in
+  told.everywhere = told.folds + may_rest >= bar.folds && told.gain > 0.8 * verdict.gain;
   const bool has_shape = std::ranges::any_of(hypothesis.parameters, [](const auto& p) { return p.kind == Kind::shape; });
   const bool of_a_moment = told.gain <= 0.0 && !has_shape;  // an amplitude that the others do not foretell where it matters
   const bool nearly_all = 4 * told.folds >= 3 * bar.folds && !of_a_moment;

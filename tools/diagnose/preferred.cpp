@@ -18,4 +18,9 @@ const Tried& preferred(std::span<const Tried> tried) {
   return finding != nullptr ? *finding : best;
 }
 
+double clearly_better(const Hypothesis& rival, const Hypothesis& named, double gain) {
+  constexpr double of_any = 10.0, share_of_what_holds_it = 0.03;
+  return rival.special_case == named.id ? std::max(of_any, share_of_what_holds_it * gain) : of_any;
+}
+
 }  // namespace feedtwin::tools::diagnosis

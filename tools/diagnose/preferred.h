@@ -1,5 +1,5 @@
 #pragma once
-// Which of several hypotheses that passed the bar comes into the model first.
+// Which of several hypotheses that passed the bar comes into the model first, and when one takes another's place.
 
 #include <span>
 
@@ -18,5 +18,10 @@ struct Tried {
 /// it comes in after it, where it is there too.
 /// @param tried at least one
 [[nodiscard]] const Tried& preferred(std::span<const Tried> tried);
+
+/// So much less must a rival leave over to take a name's place: what holds the named one as a special case fits a little
+/// more of whatever there is.
+/// @param gain what the named one explains
+[[nodiscard]] double clearly_better(const Hypothesis& rival, const Hypothesis& named, double gain);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include "tools/diagnose/judge.h"
@@ -180,13 +179,13 @@ class Search {
 
   /// Puts an equal or better one in an effect's place where there is one; notes those that fit as well.
   bool exchange(std::size_t i, const Fit& less, double gain, Found& found) {
-    double own = 0.0;
-    for (const auto& score : earlier_[i])
-      if (score.hypothesis == found.effect.hypothesis) own = score.gain;
+    const auto own_score = std::ranges::find(earlier_[i], found.effect.hypothesis, &Score::hypothesis);
+    const double own = own_score == earlier_[i].end() ? 0.0 : own_score->gain;
     std::size_t tried = 0;
     for (const auto& score : earlier_[i]) {
       const auto* rival = score.hypothesis;
-      if (has(fit_.model, *rival) || score.gain < 0.7 * own || last_.leaves_to(score) || ++tried > rivals_tried) continue;
+      if (has(fit_.model, *rival) || gave_way_.contains(rival)) continue;
+      if (score.gain < 0.7 * own || last_.leaves_to(score) || ++tried > rivals_tried) continue;
       const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, refit_iterations);
       const Active& other = fit.model.effects.back();
       if (!worth_naming(other, fit.model.axis) || !possible(other, fit.model.axis)) continue;
@@ -195,9 +194,10 @@ class Search {
       const double more = bar_.per_parameter *
                           (static_cast<double>(freedom(*rival)) - static_cast<double>(freedom(*found.effect.hypothesis)));
       const double worse = fit.cost + more - fit_.cost;
-      if (worse < -10.0) {
+      if (worse < -clearly_better(*rival, *found.effect.hypothesis, gain)) {
         progress_(fmt::format("{} in place of {}", rival->id, found.effect.hypothesis->id));
         dropped_.insert(found.effect.hypothesis);
+        gave_way_.insert(found.effect.hypothesis);
         chances_[i] = last_.p_false_alarm(score.standard);
         Candidate swapped = fit.model;  // in the same place
         std::rotate(swapped.effects.begin() + static_cast<std::ptrdiff_t>(i), swapped.effects.end() - 1,
@@ -283,6 +283,7 @@ class Search {
   std::vector<double> chances_;
   std::vector<std::vector<Score>> earlier_;  ///< what else was in question when each was added
   std::set<const Hypothesis*> dropped_;      ///< not asked again, so that the search ends
+  std::set<const Hypothesis*> gave_way_;     ///< to another: not put back in its place, of two that are nearly one
 };
 
 }  // namespace

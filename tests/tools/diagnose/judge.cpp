@@ -140,6 +140,26 @@ TEST(OnUnseen, OneEventHoldsWhereItIsNearlyAllThatWasLeftOrStrikesHard) {
   EXPECT_FALSE(on_unseen(model, with, without, hypothesis("backlash"), verdict, Bar{}).holds);
 }
 
+// A process that pauses for a second has nothing to gain there; any other effect acts in every one.
+TEST(OnUnseen, AProcessMayRestInOneFold) {
+  const auto axis = plant::source_axis();
+  const InverseModel model(make_tracks({tests::make_recording(axis, {.motion = "sine", .duration_s = 8.0})}, axis), axis);
+  const Bar bar;
+  Fit with, without;
+  with.jacobian = Eigen::MatrixXd::Ones(model.rows(), 1);
+  without.jacobian = Eigen::MatrixXd::Zero(model.rows(), 0);
+  without.white = Vector::Constant(model.rows(), 3.0);
+  for (const auto& s : model.segments()) without.white.segment(s.start, s.size / static_cast<Index>(bar.folds)).setZero();
+  with.white = without.white.array() - without.white.mean();
+  without.cost = without.white.squaredNorm(), with.cost = with.white.squaredNorm();
+  Verdict verdict;
+  verdict.gain = without.cost - with.cost;
+  const auto told = [&](std::string_view id) { return on_unseen(model, with, without, hypothesis(id), verdict, bar); };
+  ASSERT_EQ(told("process_force").folds, bar.folds - 1);
+  EXPECT_TRUE(told("process_force").everywhere);
+  EXPECT_FALSE(told("cogging").everywhere);
+}
+
 TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
   const Whitening whitening = Whitening::estimate(model, model.residual(axis, {}));
   Candidate start{axis, {}};

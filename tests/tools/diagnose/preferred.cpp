@@ -41,5 +41,13 @@ TEST(Preferred, OfFindingsTheOneThatExplainsMost) {
   EXPECT_EQ(first_of({tried("input_delay", {2e-3}, 80.0), late_sensor(3e-3, 100.0)}), "channel_skew");
 }
 
+TEST(ClearlyBetter, WhatHoldsTheNamedOneMustExplainAShareMore) {
+  const Hypothesis &growth = hypothesis("screw_growth"), &lead = hypothesis("lead_error");
+  EXPECT_DOUBLE_EQ(clearly_better(growth, lead, 6251.0), 0.03 * 6251.0) << "by 92 it took the place of a true wrong lead";
+  EXPECT_DOUBLE_EQ(clearly_better(growth, lead, 100.0), 10.0);
+  EXPECT_DOUBLE_EQ(clearly_better(lead, growth, 6251.0), 10.0);
+  EXPECT_DOUBLE_EQ(clearly_better(hypothesis("cogging"), lead, 6251.0), 10.0);
+}
+
 }  // namespace
 }  // namespace feedtwin

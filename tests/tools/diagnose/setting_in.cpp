@@ -29,16 +29,18 @@ struct Made {
   ForwardModel forward;
   Whitening whitening;
 
-  Made(const plant::AxisParameters& truth, const plant::AxisParameters& nominal, bool torque_sensor = true)
-      : data(recorded(truth, nominal, torque_sensor)),
+  Made(const plant::AxisParameters& truth, const plant::AxisParameters& nominal, bool torque_sensor = true,
+       double torque_noise_Nm = 5e-4)
+      : data(recorded(truth, nominal, torque_sensor, torque_noise_Nm)),
         model(make_tracks(data.fit, data.axis), data.axis),
         fitter(model, data.axis),
         forward(data.fit, data),
         whitening(fitter.colour_of(model.residual(data.axis, {}))) {}
 
-  static tools::Case recorded(const plant::AxisParameters& truth, const plant::AxisParameters& nominal, bool torque_sensor) {
+  static tools::Case recorded(const plant::AxisParameters& truth, const plant::AxisParameters& nominal, bool torque_sensor,
+                              double torque_noise_Nm) {
     tools::Case data = tests::short_case(truth, nominal);
-    tests::MadeRun run{.duration_s = 3.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+    tests::MadeRun run{.duration_s = 3.0, .torque_noise_Nm = torque_noise_Nm, .force_noise_N = 0.05};
     run.settings = {.amplitude_m = 0.01, .speed_m_per_s = 0.06};
     data.fit = {tests::make_recording(truth, run)};
     if (!torque_sensor) data.fit.front().channels.erase("torque_sensor_Nm");
@@ -95,6 +97,23 @@ TEST(AskHowMotorSetsIn, WhatIsGivenOutlivesTheNumbersOfAnother) {
   const Fit fit = made.fitter.linearised(far_off, made.whitening);
   const Ruling beside = rule_beside(before, fit, made.forward, made.fitter, SlopesOf::anew);
   EXPECT_EQ(motor_presliding_m(beside.model.axis), 1e-6);
+}
+
+double before_any_name_m(double truth_m, bool torque_sensor) {
+  auto nominal = plant::source_axis();
+  nominal.motor.coulomb_N.pos *= 0.95;
+  const Made made(axis_over(truth_m), nominal, torque_sensor, 5e-5);
+  auto axis = nominal;
+  axis.effects = motor_as_it_sets_in(made.forward, made.fitter, [](std::string_view) {});
+  return motor_presliding_m(axis);
+}
+
+TEST(MotorAsItSetsIn, IsKnownBeforeAnyName) {
+  const double found_m = before_any_name_m(1e-6, true);
+  EXPECT_GE(found_m, 7e-7);
+  EXPECT_LE(found_m, 1.4e-6);
+  EXPECT_EQ(before_any_name_m(0.0, true), 0.0);
+  EXPECT_EQ(before_any_name_m(1e-6, false), 0.0) << "the command shows only what motor and screw do together";
 }
 
 }  // namespace

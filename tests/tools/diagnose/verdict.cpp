@@ -57,6 +57,25 @@ TEST(BeyondTheCatalogue, ATraceOfStructureIsNot) {
   EXPECT_FALSE(trace.with_nothing_named);
 }
 
+// Numbers that a scale's names have bent leave structure in the forces that was not there before, and that is no physics.
+TEST(BeyondTheCatalogue, WhatOnlyTheNamesOfTheScaleLeaveIsNot) {
+  const tools::Case data = tests::short_case(plant::source_axis(), plant::source_axis());
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Fitter fitter(model, data.axis);
+  SearchResult found;
+  found.recalibrated.residual = model.residual(data.axis, {});
+  Candidate bent{data.axis, {{&hypothesis("lead_error"), {1e-5}}}};
+  bent.axis.ball_screw.stribeck_m_per_s = {0.05, 0.05};
+  bent.axis.ball_screw.static_N = {90.0, 90.0};
+  const Structure left = fitter.structure().remaining(model.residual(bent.axis, bent.effects));
+  ASSERT_GT(left.structured_N(), 0.5);
+  ASSERT_GT(left.share, 0.2);
+  const auto unknown = [&] { return beyond_the_catalogue(fitter, found, bent, [](std::string_view) {}); };
+  EXPECT_FALSE(unknown());
+  bent.effects = {{&hypothesis("cogging"), {1e-4, 0.0, 8.0}}};
+  EXPECT_TRUE(unknown());
+}
+
 // So much of a noisy axis, with nothing hidden, has been seen to repeat.
 TEST(BeyondTheCatalogue, AShareThatAnAxisWithNothingHiddenHadIsNotHoweverManyNewtons) {
   const auto seen = weighed(260.0, 8.0), more = weighed(300.0, 8.0);

@@ -6,10 +6,19 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "tools/diagnose/forward/ruling.h"
 
 namespace feedtwin::tools::diagnosis {
+
+/// Asked of the numbers alone, before any name: what the motor does while the axis rests can bend all numbers, and gains
+/// with them, so far that no name's fit finds the way back.
+/// @return the nominal axis's effects, with the motor's path where the inverse model fits it far better and in closed loop
+/// the
+///         runs are surely likelier
+[[nodiscard]] std::vector<plant::EffectSetting> motor_as_it_sets_in(const ForwardModel& forward, const Fitter& fitter,
+                                                                    const std::function<void(std::string_view)>& progress);
 
 /// Gives the model a motor whose friction sets in over a path, where in closed loop the runs are surely likelier with it.
 /// Asked where a torque sensor shows what is left behind the motor.
