@@ -12,7 +12,6 @@
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/gain_in_numbers.h"
-#include "tools/diagnose/forward/likelihood.h"
 #include "tools/diagnose/forward/missed.h"
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
@@ -242,8 +241,9 @@ class Diagnosing {
     simulated.take_meter_from(forward_);
     const Candidate& recalibrated_only = found_.recalibrated.model;
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
-    const auto as_given = followed(held_out, Candidate{data_.axis, {}}),
-               as_recalibrated = followed(held_out, recalibrated_only), as_told = followed(held_out, told_unseen);
+    const Candidate given{data_.axis, {}};
+    const auto as_given = followed(held_out, given), as_recalibrated = followed(held_out, recalibrated_only),
+               as_told = followed(held_out, told_unseen);
     result_.holdout_inverse = figures(as_given, as_recalibrated, as_told);
     result_.force_error = force_errors(as_given, as_recalibrated, as_told);
     result_.holdout = figures(simulated, data_.axis, extended(recalibrated_only), updated_unseen);
