@@ -25,7 +25,7 @@ TEST(NatsToStay, ATorqueConstantNeedsFewerWhereTheNumbersWouldBeFarOff) {
 TEST(NatsToStay, ATorqueConstantNeedsMoreWhereItPutsTheNumbersFartherFromNominal) {
   EXPECT_DOUBLE_EQ(nats_to_stay(found("torque_gain_error"), -17.0), 2000.0);
   EXPECT_DOUBLE_EQ(nats_to_stay(found("hidden_friction_compensation"), -17.0), 5e4);  // numbers do not take that up
-  EXPECT_DOUBLE_EQ(nats_to_stay(found("payload"), -17.0), -10.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("payload"), -17.0), 15.0);
 }
 
 TEST(NatsToStay, AWeightNeedsMoreWhereTheNumbersAreClearlyBetterWithout) {
@@ -42,7 +42,7 @@ TEST(NatsToStay, WhatNumbersCouldDoNeedsMoreThanItPutsThemOff) {
   Found explains_most = found("torque_offset");
   explains_most.error_ratio = 5.02;
   EXPECT_DOUBLE_EQ(nats_to_stay(explains_most, -930.0), 1860.0);
-  EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), -20.0), -10.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), -20.0), 15.0);
 }
 
 // A law of speed that was none was missed by -8 nats and put the numbers 150 squared tolerances off; of true names a cogging
@@ -90,7 +90,7 @@ TEST(MayBeMissedEnough, IsAskedOfWhatWouldTakeAnothersPlace) {
 
 TEST(NatsToStay, OthersNeedAsManyWhereverTheNumbersAre) {
   for (const double farther : {0.0, 129.0}) {
-    EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), -10.0);
+    EXPECT_DOUBLE_EQ(nats_to_stay(found("cogging"), farther), 15.0);
     EXPECT_DOUBLE_EQ(nats_to_stay(found("hard_stop"), farther), 20.0);
     EXPECT_DOUBLE_EQ(nats_to_stay(found("payload", true), farther), 100.0);
   }
@@ -104,7 +104,7 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItExplainsMost) {
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4);
   Found other = found("cogging");
   other.error_ratio = 15.9;
-  EXPECT_DOUBLE_EQ(nats_to_stay(other), -10.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(other), 15.0);
 }
 
 }  // namespace

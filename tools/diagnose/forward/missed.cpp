@@ -135,7 +135,9 @@ double nats_to_stay(const Found& named, double farther) {
   const bool what_numbers_do = h.told_by_runs_nats || h.number_of_the_model;
   if (farther < -(what_numbers_do ? far_nearer : nearer))
     least = std::max(least, -(what_numbers_do ? times_as_many : nats_a_tolerance) * farther);
-  return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : -10.0, least);
+  // of 800 cases one false name was missed by 1; true ones by 24 and more, those of a real axis by 111
+  constexpr double found_by_both = 15.0;
+  return std::max(named.by_closed_loop ? 100.0 : h.jumps ? 20.0 : found_by_both, least);
 }
 
 double nats_beside(const Hypothesis& h, double most_missed_nats) {
