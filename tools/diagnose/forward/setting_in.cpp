@@ -43,15 +43,19 @@ std::pair<double, double> likeliest(const ForwardModel& forward, const Candidate
 /// with motor and screw creeping on bristles of their own, it took a third of the cost; of axes whose motor does so, which
 /// seldom rest, a tenth to a twentieth, and of those with friction at once it took none.
 std::vector<Fit> likeliest_by_inverse_model(const Fitter& fitter, const Fit& at_once, const Whitening& whitening) {
-  constexpr double least_share = 0.05, nearly = 0.9;
-  std::vector<Fit> fits;
-  for (const double distance_m : finer_m) {
+  constexpr double least_share = 0.05, nearly = 0.9, usual_m = 5e-7, promising = 0.25;
+  const auto fit_over = [&](double distance_m) {
     Candidate from_file{fitter.nominal(), {}};
     give(from_file.axis, distance_m);
-    fits.push_back(fitter.fit(from_file, whitening, 2 * refit_iterations));
-  }
+    return fitter.fit(from_file, whitening, 2 * refit_iterations);
+  };
+  const double least = std::max(least_share * at_once.cost, 2.0 * surely_nats);
+  // any path is nearer to any other than to none: where friction sets in at once this one is seldom better, and never so
+  if (at_once.cost - fit_over(usual_m).cost < promising * least) return {};
+  std::vector<Fit> fits;
+  for (const double distance_m : finer_m) fits.push_back(fit_over(distance_m));
   const double most = at_once.cost - std::ranges::min_element(fits, {}, &Fit::cost)->cost;
-  if (most < std::max(least_share * at_once.cost, 2.0 * surely_nats)) return {};
+  if (most < least) return {};
   std::erase_if(fits, [&](const Fit& fit) { return at_once.cost - fit.cost < nearly * most; });
   return fits;
 }

@@ -14,9 +14,8 @@ namespace feedtwin::tools::diagnosis {
 
 /// Asked of the numbers alone, before any name: what the motor does while the axis rests can bend all numbers, and gains
 /// with them, so far that no name's fit finds the way back.
-/// @return the nominal axis's effects, with the motor's path where the inverse model fits it far better and in closed loop
-/// the
-///         runs are surely likelier
+/// @return the nominal axis's effects; with the motor's path where the inverse model fits it far better, and the closed loop
+///         finds the runs surely likelier if it has to be asked
 [[nodiscard]] std::vector<plant::EffectSetting> motor_as_it_sets_in(const ForwardModel& forward, const Fitter& fitter,
                                                                     const std::function<void(std::string_view)>& progress);
 
