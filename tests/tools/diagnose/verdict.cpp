@@ -64,7 +64,7 @@ TEST(BeyondTheCatalogue, WhatOnlyTheNamesOfTheScaleLeaveIsNot) {
   const Fitter fitter(model, data.axis);
   SearchResult found;
   found.recalibrated.residual = model.residual(data.axis, {});
-  Candidate bent{data.axis, {{&hypothesis("lead_error"), {1e-5}}}};
+  Candidate bent{data.axis, {{&hypothesis("lead_error"), {1e-5, 0.0}}}};
   bent.axis.ball_screw.stribeck_m_per_s = {0.05, 0.05};
   bent.axis.ball_screw.static_N = {90.0, 90.0};
   const Structure left = fitter.structure().remaining(model.residual(bent.axis, bent.effects));
