@@ -153,6 +153,11 @@ Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without,
   return told;
 }
 
+bool hidden_beside(double largest_beside, const Verdict& verdict, const Unseen& unseen, const Bar& bar) {
+  const bool leaves_next_to_nothing = unseen.everywhere && verdict.strength > bar.by_itself;
+  return !verdict.far_off && !leaves_next_to_nothing && verdict.strength < bar.beside * largest_beside;
+}
+
 Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit) {
   constexpr std::size_t groups = 16;
   constexpr double widest = 8.0;  // beyond it the line that the jackknife draws is what is wrong

@@ -44,6 +44,10 @@ struct Unseen {
 [[nodiscard]] Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
                                const Verdict& verdict, const Bar& bar);
 
+/// May it be what an imperfect model of a stronger effect leaves over?
+/// @param largest_beside the strength of the strongest other one, where this one acts
+[[nodiscard]] bool hidden_beside(double largest_beside, const Verdict& verdict, const Unseen& unseen, const Bar& bar);
+
 /// Covariance of the unknowns, widened to what a delete-a-group jackknife over seconds finds: the laws are not exact and
 /// the noise is not of one colour, so that rows say less than they seem to.
 [[nodiscard]] Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/diagnose/reading_rows.h"
+#include "tools/identify/sliding.h"
 #include "tools/recording/power_meter.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double stretch_of_windows_s = 0.73;  // no motion repeats in step with it
 constexpr std::size_t power_folds = 4;
-constexpr Index window_readings = 8, window_places = 16, window_speeds = 12, window_commands = 8;
+constexpr Index window_readings = 8, window_places = 16, window_speeds = 12, window_commands = 8, window_rests = 8;
 
 /// What the drive's power is made of, sample by sample.
 Eigen::MatrixXd powers_of(const Track& track) {
@@ -36,9 +37,19 @@ struct WindowRanges {
   }
 };
 
+/// How long the axis has stood, s, sample by sample: a drive goes to sleep, a brake's coil is let go.
+Vector stood_s(const Track& track) {
+  Vector stood = Vector::Zero(track.size);
+  for (Index k = 1; k < track.size; ++k)
+    stood[k] = std::abs(track.steady_m_per_s[k]) < standstill_m_per_s ? stood[k - 1] + track.sample_s : 0.0;
+  return stood;
+}
+
 /// Means over a window, and what is read over it.
-Vector column_of_window(const Track& track, std::size_t window, double reading_W, const WindowRanges& all) {
-  Vector row = Vector::Zero(window_readings + window_places + window_speeds + window_commands);
+Vector column_of_window(const Track& track, const Vector& stood, std::size_t window, double reading_W,
+                        const WindowRanges& all) {
+  constexpr double soon_s = 0.03, late_s = 3.0;
+  Vector row = Vector::Zero(window_readings + window_places + window_speeds + window_commands + window_rests);
   add_hats(reading_W, all.least_W, all.most_W, window_readings, 1.0, row, 0);
   const double each = 1.0 / static_cast<double>(track.meter.length);
   for (Index k = track.meter.starts[window]; k < track.meter.starts[window] + track.meter.length; ++k) {
@@ -48,6 +59,8 @@ Vector column_of_window(const Track& track, std::size_t window, double reading_W
              window_readings + window_places + (v > 0.0 ? 0 : window_speeds / 2));
     add_hats(track.held_N[k] / all.strongest_N, -1.0, 1.0, window_commands, each, row,
              window_readings + window_places + window_speeds);
+    add_hats(std::log(std::clamp(stood[k], soon_s, late_s)), std::log(soon_s), std::log(late_s), window_rests, each, row,
+             window_readings + window_places + window_speeds + window_commands);
   }
   return row;
 }
@@ -64,6 +77,7 @@ std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& 
     if (!model.equations()[s.equation].power) continue;
     const Track& track = model.tracks()[s.run];
     const Eigen::MatrixXd powers = powers_of(track);
+    const Vector stood = stood_s(track);
     for (Index i = 0; i < s.size; ++i) {
       const auto window = static_cast<std::size_t>(i);
       const double t = static_cast<double>(model.sample_of(s, i)) * track.sample_s;
@@ -73,7 +87,7 @@ std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& 
       rows.position_m.push_back(track.position_m.segment(track.meter.starts[window], track.meter.length).mean());
       rows.velocity_m_per_s.push_back(track.steady_m_per_s.segment(track.meter.starts[window], track.meter.length).mean());
       rows.fold.push_back((static_cast<std::size_t>(t / stretch_of_windows_s) + s.run) % power_folds);
-      columns.push_back(column_of_window(track, window, rows.reading.back(), ranges));
+      columns.push_back(column_of_window(track, stood, window, rows.reading.back(), ranges));
       numbers.push_back(powers.middleRows(track.meter.starts[window], track.meter.length).colwise().mean());
     }
   }
@@ -87,7 +101,8 @@ std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& 
   for (const auto& [follows, width] : {std::pair{Follows::reading, window_readings},
                                        {Follows::place, window_places},
                                        {Follows::speed, window_speeds},
-                                       {Follows::motion, window_commands}}) {
+                                       {Follows::motion, window_commands},
+                                       {Follows::rest, window_rests}}) {
     AdditiveModel::Columns part;
     for (Index c = 0; c < width; ++c) part.push_back(from + c);
     rows.ways.push_back(std::move(part)), rows.follows.push_back(follows);

@@ -20,6 +20,7 @@ enum class Follows {
   motion,  ///< acceleration, and what it was before
   use,     ///< how hard and how fast the axis has run lately
   drive,   ///< what is commanded, and the power that it makes: crosstalk
+  rest,    ///< how long the axis has stood
   several,
   time  ///< the clock, over and over
 };

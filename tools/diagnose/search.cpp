@@ -246,13 +246,12 @@ class Search {
     for (const std::size_t i : weakest_first) {
       const Active& effect = fit_.model.effects[i];
       const auto& verdict = verdicts[i];
-      const double largest = largest_beside(i, less);
       const Unseen unseen = on_unseen(fitter_.model(), fit_, less[i], *effect.hypothesis, verdict, bar_);
       progress_(fmt::format("{}: gain {:.0f}, on unseen folds {:.0f} in {} of {}, surprise {:.0f}, strength {:.2f}",
                             effect.hypothesis->id, verdict.gain, unseen.gain, unseen.folds, bar_.folds, verdict.surprise,
                             verdict.strength));
       everywhere[i] = unseen.everywhere;
-      const bool hidden = !verdict.far_off && verdict.strength < bar_.beside * largest;
+      const bool hidden = hidden_beside(largest_beside(i, less), verdict, unseen, bar_);
       if (!unseen.holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
         drop(i, less[i].model, verdict);
         return false;

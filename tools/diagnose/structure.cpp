@@ -225,11 +225,21 @@ Vector RepeatableStructure::part_of(const Vector& residual) const {
 }
 
 Structure RepeatableStructure::remaining(const Vector& residual) const {
+  Vector sum = Vector::Zero(additive_.moments());
+  for (std::size_t e = 0; e < model_.equations().size(); ++e)
+    if (of_force(model_.equations()[e])) sum += gathered(residual, e);
+  return within(std::move(sum));
+}
+
+Structure RepeatableStructure::of_the_table(const Vector& residual) const {
+  const auto& all = model_.equations();
+  const auto own = std::ranges::find_if(all, [](const Equation& e) { return e.guide && !e.screw && !e.motor; });
+  return own == all.end() ? Structure{} : within(gathered(residual, static_cast<std::size_t>(own - all.begin())));
+}
+
+Structure RepeatableStructure::within(Vector y) const {
   Structure found;
   if (additive_.moments() == 0) return found;
-  Vector y = Vector::Zero(additive_.moments());
-  for (std::size_t e = 0; e < model_.equations().size(); ++e)
-    if (of_force(model_.equations()[e])) y += gathered(residual, e);
   y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm();
   const auto rms = [](const Vector& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); };

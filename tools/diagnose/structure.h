@@ -31,6 +31,9 @@ class RepeatableStructure {
 
   /// Of the sum of all force equations.
   [[nodiscard]] Structure remaining(const Vector& residual) const;
+  /// Of the table's own equation, behind a force sensor: what acts on the table shows there without the noise of motor and
+  /// screw. None where no force was recorded.
+  [[nodiscard]] Structure of_the_table(const Vector& residual) const;
   /// What the additive model, or those of its parts that do best, predict of each force equation's residual on seconds
   /// that they have not seen; zero where they have nothing to say. What is left without it is nearer to noise.
   [[nodiscard]] Vector part_of(const Vector& residual) const;
@@ -39,6 +42,7 @@ class RepeatableStructure {
   /// By the best of the first so many ways.
   [[nodiscard]] Vector unseen(const AdditiveModel& additive, const Vector& y, std::size_t ways) const;
   [[nodiscard]] AdditiveModel additive_over(const std::vector<Moment>& moments) const;
+  [[nodiscard]] Structure within(Vector forces_N) const;
   [[nodiscard]] Vector gathered(const Vector& residual, std::size_t equation) const;
 
   const InverseModel& model_;

@@ -280,5 +280,20 @@ TEST(Fitter, ANumberThatTheRunsSayNothingOfDoesNotKeepTheOthersFromMoving) {
   EXPECT_NEAR(fit.model.axis.guide_mass_kg, truth.guide_mass_kg, 0.02 * truth.guide_mass_kg);
 }
 
+// A lead's wave beside lost counts that are 250 times what is left over: it leaves a seventh, and so in every fold.
+TEST(HiddenBeside, WhatLeavesNextToNothingIsNotWhatAnotherModelLeaves) {
+  const auto hidden = [](double strength, bool everywhere) {
+    Verdict verdict;
+    verdict.strength = strength;
+    Unseen unseen;
+    unseen.everywhere = everywhere;
+    return hidden_beside(250.0, verdict, unseen, Bar{});
+  };
+  EXPECT_FALSE(hidden(7.0, true));
+  EXPECT_TRUE(hidden(7.0, false));
+  EXPECT_TRUE(hidden(1.7, true));
+  EXPECT_FALSE(hidden(20.0, false));
+}
+
 }  // namespace
 }  // namespace feedtwin

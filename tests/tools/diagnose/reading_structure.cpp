@@ -106,6 +106,37 @@ TEST(ReadingStructure, ALoadThatKeepsTimeIsInThePower) {
   EXPECT_GT(told->share, 0.6);
 }
 
+// The coil of a holding brake: on while the axis moves, and 0.4 s more.
+TEST(ReadingStructure, ACoilThatIsLetGoAtRestFollowsHowLongTheAxisHasStood) {
+  constexpr double coil_W = 0.5, standstill_m_per_s = 2e-4;
+  constexpr std::size_t late = 400, window = 100;
+  std::vector<tools::Recording> all;
+  for (const double speed_m_per_s : {0.03, 0.05, 0.07}) {
+    tests::MadeRun made{.motion = "s_curve", .duration_s = 8.0, .power_noise_W = 0.05, .seed = 1};
+    made.settings.speed_m_per_s = speed_m_per_s, made.settings.amplitude_m = 0.015, made.settings.dwell_s = 0.9;
+    all.push_back(tests::make_recording(plant::source_axis(), made));
+    const auto& x = all.back().at(channel::position_m);
+    std::size_t stood = 0;
+    std::vector<double> power_W(x.size());
+    for (std::size_t k = 10; k < x.size(); ++k) {
+      stood = std::abs(x[k] - x[k - 10]) < 10.0 * standstill_m_per_s * all.back().sample_s ? stood + 1 : 0;
+      power_W[k] = stood < late ? coil_W : 0.0;
+    }
+    change(all.back(), channel::power_W, [&](double p, std::size_t k) {
+      double mean = 0.0;  // over the meter's window
+      const std::size_t from = k - k % window, to = std::min(from + window, power_W.size());
+      for (std::size_t i = from; i < to; ++i) mean += power_W[i] / static_cast<double>(to - from);
+      return p + mean;
+    });
+  }
+  const Seen seen = metered(std::move(all));
+  const auto told = what_stands_out(seen.model, seen.truth, [](std::string_view) {});
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->channel, channel::power_W);
+  EXPECT_EQ(told->follows, Follows::rest);
+  EXPECT_GT(told->share, 0.6);
+}
+
 TEST(ReadingStructure, ACoarseConverterStepsInWhatIsRead) {
   constexpr double step_Nm = 0.02;
   const auto told = told_of([](tools::Recording& run) {

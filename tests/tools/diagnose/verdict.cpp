@@ -95,6 +95,33 @@ TEST(BeyondTheCatalogue, MuchStructureIsUnknownBesideANameToo) {
   EXPECT_TRUE(much.with_a_name);
 }
 
+// A force on the table that a noisy motor hides from the sum shows in the force sensor.
+TEST(BeyondTheCatalogue, WhatOnlyTheForceSensorShowsIsUnknown) {
+  constexpr double noise_N = 12.0;
+  for (const double spring_N_per_m : {0.0, 100.0}) {
+    auto truth = plant::source_axis();
+    if (spring_N_per_m > 0.0)
+      truth.effects.push_back(tests::effect("cable_spring", {{"stiffness_N_per_m", spring_N_per_m}}));
+    std::mt19937 chance(1);
+    std::normal_distribution<double> noise_Nm(0.0, noise_N * plant::source_axis().axis.lead_m / (2.0 * std::numbers::pi));
+    std::vector<tools::Recording> runs;
+    for (const char* motion : {"sine", "s_curve", "triangle"}) {
+      tests::MadeRun made{.motion = motion, .duration_s = 3.0, .torque_noise_Nm = 5e-4, .force_noise_N = 0.05};
+      made.settings.speed_m_per_s = 0.06, made.settings.amplitude_m = 0.02;
+      runs.push_back(tests::make_recording(truth, made));
+      for (double& torque_Nm : runs.back().channels.at(std::string(tools::channel::torque_cmd_Nm)))
+        torque_Nm += noise_Nm(chance);
+    }
+    const auto nominal = plant::source_axis();
+    const InverseModel model(make_tracks(runs, nominal), nominal);
+    const Fitter fitter(model, nominal);
+    SearchResult found;
+    found.recalibrated.residual = model.residual(nominal, {});
+    ASSERT_LT(fitter.structure().remaining(found.recalibrated.residual).share, 0.1);
+    EXPECT_EQ(beyond_the_catalogue(fitter, found, {nominal, {}}, [](std::string_view) {}), spring_N_per_m > 0.0);
+  }
+}
+
 /// Beside a damaged spot, with so much of its height told and borne out by every unseen fold.
 bool unknown_with_told(double told_N, double error_ratio = 1.5) {
   constexpr double centre_m = 0.0, half_width_m = 0.004;
