@@ -22,6 +22,9 @@ struct Equation {
   bool motor = false, screw = false, guide = false, slip = false, power = false;
 };
 
+/// The table's own, behind a force sensor.
+[[nodiscard]] bool tables_own(const Equation& equation);
+
 /// Hamming-windowed low pass of force rows that many samples apart, to 0.4 of their rate.
 [[nodiscard]] Vector low_pass_to(Index samples_a_row);
 

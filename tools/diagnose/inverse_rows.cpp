@@ -27,6 +27,10 @@ Vector low_pass_to(Index samples_a_row) {
   return made / made.sum();
 }
 
+bool tables_own(const Equation& equation) {
+  return equation.guide && !equation.screw && !equation.motor;
+}
+
 double moved_kg(const Equation& equation, const plant::AxisParameters& axis) {
   const auto model = plant::make_axis_model(axis);
   return equation.motor * model.motor_mass_kg + equation.screw * model.screw_mass_kg + equation.guide * model.table_mass_kg;

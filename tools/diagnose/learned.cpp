@@ -140,10 +140,7 @@ void tell_where(Learned& table, double speed_m_per_s) {
     }
 }
 
-}  // namespace
-
-Learned learn_remainder(const InverseModel& model, const Candidate& at) {
-  Remainder rows = remainder_of(model, at);
+Learned learn_from(Remainder rows) {
   Learned best;
   best.share_unseen = -1.0;
   if (rows.size() < fewest_to_learn) return best;
@@ -159,6 +156,16 @@ Learned learn_remainder(const InverseModel& model, const Candidate& at) {
   table.remainder_N = best.remainder_N;
   tell_where(table, rms(rows.velocity_m_per_s));
   return table;
+}
+
+}  // namespace
+
+Learned learn_remainder(const InverseModel& model, const Candidate& at) {
+  Learned sum = learn_from(remainder_of(model, at, Forces::all));
+  Learned table = learn_from(remainder_of(model, at, Forces::of_the_table));
+  table.on_the_table = true;
+  const auto explained = [](const Learned& l) { return l.share_unseen * l.remainder_N * l.remainder_N; };
+  return table.share_unseen > 0.0 && explained(table) > explained(sum) ? table : sum;
 }
 
 std::string in_words(const Learned& learned) {

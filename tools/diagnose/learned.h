@@ -19,10 +19,12 @@ struct Learned {
   double share_unseen = 0.0;                                       ///< of the remainder on runs that it was not learned from
   double remainder_N = 0.0;                                        ///< RMS of the remainder there
   double low = 0.0, high = 0.0;                                    ///< where most of it acts
+  bool on_the_table = false;                                       ///< of what the table's own force sensor shows
   std::optional<Mode> mode;                                        ///< a part that rings, in place of the table
 };
 
-/// The axis that explains most of runs that it was not learned from; of a single run, of every other second.
+/// The axis that explains most of runs that it was not learned from; of a single run, of every other second. Learned from
+/// the sum of the forces, or from the table's own where those hold more: a noisy motor hides what acts on the table.
 [[nodiscard]] Learned learn_remainder(const InverseModel& model, const Candidate& at);
 
 [[nodiscard]] std::string in_words(const Learned& learned);

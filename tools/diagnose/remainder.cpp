@@ -28,7 +28,7 @@ Remainder Remainder::part(std::size_t which, bool of_it) const {
   return some;
 }
 
-Remainder remainder_of(const InverseModel& model, const Candidate& at) {
+Remainder remainder_of(const InverseModel& model, const Candidate& at, Forces which) {
   const Vector residual = model.residual(at.axis, at.effects);
   const bool alone = model.tracks().size() == 1;
   Remainder rows;
@@ -39,6 +39,7 @@ Remainder remainder_of(const InverseModel& model, const Candidate& at) {
     for (const auto& s : model.segments()) {
       const auto& e = model.equations()[s.equation];
       if (s.run != run || s.size == 0 || e.slip || e.power) continue;
+      if (which == Forces::of_the_table && !tables_own(e)) continue;
       add(sum, residual.segment(s.start, s.size));
       any = &s;
     }

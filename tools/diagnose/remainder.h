@@ -18,8 +18,9 @@ struct Remainder {
   [[nodiscard]] Remainder part(std::size_t which, bool of_it) const;
 };
 
-/// Sum of the force equations' residuals.
-[[nodiscard]] Remainder remainder_of(const InverseModel& model, const Candidate& at);
+enum class Forces { all, of_the_table };
+/// Sum of the force equations' residuals, or that of the table's own, behind a force sensor; without one, nothing.
+[[nodiscard]] Remainder remainder_of(const InverseModel& model, const Candidate& at, Forces which);
 
 /// Takes off what the numbers could do of the rows to learn from, and as much of others.
 void take_off_numbers(Remainder& rows, Remainder* others = nullptr);

@@ -99,9 +99,9 @@ std::string outcome_of(const Diagnosis& diagnosis) {
         100.0 * diagnosis.unknown->share_unseen, how_it_runs(diagnosis.unknown->mode));
   if (verdict == "unknown")
     return fmt::format(
-        "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a table over {} explains "
+        "The mismatch is real and none of the known effects explains it: {:.2g} N rms{}, of which a table over {} explains "
         "{:.0f} % on runs that it was not learned from; it acts mostly from {:.4g} to {:.4g}.",
-        diagnosis.unknown->remainder_N,
+        diagnosis.unknown->remainder_N, diagnosis.unknown->on_the_table ? " on the table, behind its force sensor" : "",
         !diagnosis.unknown->damping_pos_Ns_per_m.empty() ? "position (m), of a force and a damping,"
         : diagnosis.unknown->axis == Where::position     ? "position (m)"
         : diagnosis.unknown->axis == Where::velocity     ? "speed (m/s)"

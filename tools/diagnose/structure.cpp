@@ -233,7 +233,7 @@ Structure RepeatableStructure::remaining(const Vector& residual) const {
 
 Structure RepeatableStructure::of_the_table(const Vector& residual) const {
   const auto& all = model_.equations();
-  const auto own = std::ranges::find_if(all, [](const Equation& e) { return e.guide && !e.screw && !e.motor; });
+  const auto own = std::ranges::find_if(all, tables_own);
   return own == all.end() ? Structure{} : within(gathered(residual, static_cast<std::size_t>(own - all.begin())));
 }
 

@@ -119,6 +119,10 @@ TEST(BeyondTheCatalogue, WhatOnlyTheForceSensorShowsIsUnknown) {
     found.recalibrated.residual = model.residual(nominal, {});
     ASSERT_LT(fitter.structure().remaining(found.recalibrated.residual).share, 0.1);
     EXPECT_EQ(beyond_the_catalogue(fitter, found, {nominal, {}}, [](std::string_view) {}), spring_N_per_m > 0.0);
+    if (spring_N_per_m == 0.0) continue;
+    const Learned told = learn_remainder(model, {nominal, {}});
+    EXPECT_TRUE(told.on_the_table);
+    EXPECT_GT(told.share_unseen, 0.5);
   }
 }
 
