@@ -1,7 +1,8 @@
 #pragma once
 // How much of the command's jump the force sensor shows at once. Where motor, screw and table are one body, each takes its
 // share by mass, and a sensor that reads at the sample's instant is half a tick ahead of the mean about it. Behind a screw
-// that yields the force can't jump: read as one body, the sensor looks 0.4 to 1.2 ms late, as it does on no rigid axis.
+// that yields the force can't jump: read as one body, the sensor looks 0.4 to 1.2 ms late, as it does on no rigid axis; a
+// sensor that is late by as much leaves clearly less over if it is read as that.
 
 #include <vector>
 

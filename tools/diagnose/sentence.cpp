@@ -40,7 +40,8 @@ std::string sentence_of(const NamedEffect& effect) {
                      how_much(effect), std::max(1e-6, effect.p_false_alarm));
   std::vector<std::string> ruled_out;
   for (const auto other : effect.hypothesis->confused_with)
-    if (std::ranges::find(effect.alternatives, other) == effect.alternatives.end()) ruled_out.emplace_back(other);
+    if (other != told_id(*effect.hypothesis) && std::ranges::find(effect.alternatives, other) == effect.alternatives.end())
+      ruled_out.emplace_back(other);
   if (!effect.alternatives.empty())
     text += fmt::format(" These channels cannot tell it from {}.", list_of(effect.alternatives));
   if (!ruled_out.empty()) text += fmt::format(" Ruled out, because they explain less: {}.", list_of(ruled_out));

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace feedtwin {
 namespace {
 
@@ -105,6 +107,20 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItExplainsMost) {
   Found other = found("cogging");
   other.error_ratio = 15.9;
   EXPECT_DOUBLE_EQ(nats_to_stay(other), 15.0);
+}
+
+// Newtons of structure, of what is left over, as seen with a name and without it.
+TEST(LeavesStructure, WhereWhatGoesBringsBackMoreThanAName) {
+  const auto left = [](double structured_N, double remainder_N) {
+    Structure structure;
+    structure.remainder_N = remainder_N, structure.share = std::pow(structured_N / remainder_N, 2);
+    return structure;
+  };
+  EXPECT_TRUE(leaves_structure(left(0.9, 3.5), left(1.9, 4.3))) << "a screw that warms up";
+  EXPECT_TRUE(leaves_structure(left(0.58, 1.8), left(0.87, 2.1))) << "friction that lags";
+  EXPECT_FALSE(leaves_structure(left(0.77, 1.3), left(0.76, 1.3))) << "a bite of something else";
+  EXPECT_FALSE(leaves_structure(left(0.01, 0.4), left(0.3, 0.5))) << "too little to be unknown";
+  EXPECT_FALSE(leaves_structure(left(0.3, 6.0), left(1.0, 6.0))) << "a trace of what is left over";
 }
 
 }  // namespace
