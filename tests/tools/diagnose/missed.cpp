@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "tools/diagnose/forward/confirm.h"
+
 namespace feedtwin {
 namespace {
 
@@ -107,6 +109,19 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItExplainsMost) {
   Found other = found("cogging");
   other.error_ratio = 15.9;
   EXPECT_DOUBLE_EQ(nats_to_stay(other), 15.0);
+}
+
+// What reversals leave looks late too, and is likelier so: a late sensor is a channel far worse without it.
+TEST(AskedOncePolished, ALateSensorMustMoveItsChannel) {
+  const auto asked = [](std::string_view id, double error_ratio, bool everywhere = true) {
+    Found one = found(id);
+    one.error_ratio = error_ratio, one.held_everywhere = everywhere;
+    return asked_once_polished(one);
+  };
+  EXPECT_FALSE(asked("channel_skew", 1.18));
+  EXPECT_TRUE(asked("channel_skew", 1.44));
+  EXPECT_TRUE(asked("cogging", 1.0));
+  EXPECT_FALSE(asked("cogging", 1.0, false));
 }
 
 // Newtons of structure, of what is left over, as seen with a name and without it.

@@ -22,6 +22,10 @@ Confirmation confirm(const ForwardModel& forward, const Fitter& fitter, const Wh
   return found;
 }
 
+bool asked_once_polished(const Found& named) {
+  return named.held_everywhere && named.error_ratio >= named.effect.hypothesis->least_error_ratio_polished;
+}
+
 namespace {
 
 /// Numbers of the inverse model may simulate so badly that no name's absence shows. Where all that was not seen bears a name
@@ -29,7 +33,7 @@ namespace {
 /// false ones -4354 to 1 and 0.8.
 bool missed_once_polished(const ForwardModel& forward, const Fitter& fitter, const Found* named, const Fit& with,
                           const Fit& without, const std::function<void(std::string_view)>& progress) {
-  if (named == nullptr || !named->held_everywhere) return false;
+  if (named == nullptr || !asked_once_polished(*named)) return false;
   Ruling one = rule(with, forward, fitter), rest = rule_beside(one, without, forward, fitter, SlopesOf::anew);
   contest(one, rest, forward, fitter);
   const double nats = one.value - rest.value, deviations = compared(one.likelihood, rest.likelihood).deviations;

@@ -26,4 +26,7 @@ struct Confirmation {
 void keep_confirmed(const ForwardModel& forward, const Fitter& fitter, SearchResult& found, Fit& fit,
                     const std::function<void(std::string_view)>& progress);
 
+/// Of what the inverse model's numbers do not miss: may both be polished, and asked again?
+[[nodiscard]] bool asked_once_polished(const Found& named);
+
 }  // namespace feedtwin::tools::diagnosis
