@@ -8,7 +8,12 @@ namespace feedtwin::tools::diagnosis {
 
 namespace {
 
-constexpr int rounds = 2, iterations = 3;
+Fit quickly_fitted(const InverseModel& model, const Candidate& start) {
+  constexpr int rounds_of_colour = 2, steps_a_round = 3;
+  const Fitter fitter(model, start.axis);
+  auto whitening = fitter.colour_of(model.residual(start.axis, {}));
+  return fitter.fit_with_colour(start, whitening, rounds_of_colour, steps_a_round);
+}
 
 /// Of the table's own equation, (N)^2.
 double left_on_the_table(const InverseModel& model, const Fit& fit) {
@@ -21,9 +26,7 @@ double left_on_the_table(const InverseModel& model, const Fit& fit) {
 /// What a screw that yields leaves over of the table's force. @param share as it is returned
 double left_behind_a_screw_that_yields(const std::vector<Recording>& runs, const Candidate& start, double share) {
   const InverseModel model(make_tracks(runs, start.axis, {.force_jump_share = share}), start.axis);
-  const Fitter fitter(model, start.axis);
-  auto whitening = fitter.colour_of(model.residual(start.axis, {}));
-  return left_on_the_table(model, fitter.fit_with_colour(start, whitening, rounds, iterations));
+  return left_on_the_table(model, quickly_fitted(model, start));
 }
 
 }  // namespace
@@ -36,10 +39,8 @@ double force_jump_share(const std::vector<Recording>& runs, const plant::AxisPar
   constexpr double late_leaves_less = 0.88;
   if (runs.empty() || !runs.front().has(channel::force_sensor_N)) return 1.0;
   const InverseModel one_body(make_tracks(runs, nominal), nominal);
-  const Fitter fitter(one_body, nominal);
   const auto& skew = hypothesis("channel_skew");
-  auto whitening = fitter.colour_of(one_body.residual(nominal, {}));
-  const Fit fit = fitter.fit_with_colour({nominal, {{&skew, {0.0, 0.0}}}}, whitening, rounds, iterations);
+  const Fit fit = quickly_fitted(one_body, {nominal, {{&skew, {0.0, 0.0}}}});
   const auto& late_s = fit.model.effects.front().q;
   if (late_s[1] < std::max(least_s, late_s[0] + beyond_torque_s) || late_s[1] > most_s) return 1.0;
   const double half_tick_s = 0.5 * one_body.tracks().front().sample_s;

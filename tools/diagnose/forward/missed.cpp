@@ -150,8 +150,8 @@ double nats_to_stay(const Found& named, double farther) {
 }
 
 bool leaves_structure(const Structure& with, const Structure& without) {
-  constexpr double least_share = 0.14, least_N = 0.5, times_as_much = 2.0;  // the first two: what is unknown
-  return without.share > least_share && without.structured_N() > least_N &&
+  constexpr double unknown_share = 0.14, unknown_N = 0.5, times_as_much = 2.0;
+  return without.share > unknown_share && without.structured_N() > unknown_N &&
          std::pow(without.structured_N(), 2) > times_as_much * std::pow(with.structured_N(), 2);
 }
 
