@@ -16,12 +16,16 @@
 
 namespace feedtwin::tools::diagnosis {
 
+inline constexpr double least_share_of_much = 0.14;
+
 struct Structure {
   double remainder_N = 0.0;   ///< rms of the remainder where the axis has settled, less what the numbers could still take up
   double share = 0.0;         ///< of its square that the additive model predicts on seconds it has not seen; may be negative
   double gives_way = 0.0;     ///< of that share what only springs that give way with time predict
   std::optional<Mode> rings;  ///< where a part that rings is most of it
   [[nodiscard]] double structured_N() const;
+  /// So much is `unknown` beside names too, where they leave it.
+  [[nodiscard]] bool much() const;
 };
 
 class RepeatableStructure {

@@ -82,14 +82,13 @@ const char* verdict_of(const Diagnosis& result) {
 
 bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                           const std::function<void(std::string_view)>& progress) {
-  // one of 300 made cases with nothing hidden had 0.134, and 0.66 N, beside a memory before sliding that was none
-  constexpr double least_share = 0.14, least_N = 0.5, unexplained = 0.1;
+  constexpr double unexplained = 0.1;
   // of 62 made cases with nothing hidden none had more than 6 % of what was left over in structure; two outside the
   // catalogue that were missed had two thirds and more
   constexpr double most_of_it = 0.6, least_of_most_N = 0.3;
   // where nothing is named all of it is unexplained: of made cases with nothing hidden those with 12 % and more had at most
   // 0.09 N of it, but for that one; of thirty outside the catalogue the least had 0.29 N, and 13 %, which is given up
-  constexpr double where_nothing_is_named = least_share, least_where_nothing_is_named_N = 0.2;
+  constexpr double where_nothing_is_named = least_share_of_much, least_where_nothing_is_named_N = 0.2;
   const bool nothing_named = std::ranges::none_of(final.effects, [&](const Active& active) {
     return worth_naming(active, final.axis) && rests_on_force(*active.hypothesis);
   });
@@ -107,8 +106,7 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
       !force_sensor_shows_more(fitter.model(), final))
     return true;
   const bool enough =
-      (after.share > least_share && after.structured_N() > least_N) ||
-      (after.share > most_of_it && after.structured_N() > least_of_most_N) ||
+      after.much() || (after.share > most_of_it && after.structured_N() > least_of_most_N) ||
       (nothing_named && after.share > where_nothing_is_named && after.structured_N() > least_where_nothing_is_named_N);
   return (only_a_bite(after, squares) && !explains_most(found)) ||
          (enough && squares.share_left() > unexplained && !certain(found, after, squares));

@@ -150,9 +150,8 @@ double nats_to_stay(const Found& named, double farther) {
 }
 
 bool leaves_structure(const Structure& with, const Structure& without) {
-  constexpr double unknown_share = 0.14, unknown_N = 0.5, times_as_much = 2.0;
-  return without.share > unknown_share && without.structured_N() > unknown_N &&
-         std::pow(without.structured_N(), 2) > times_as_much * std::pow(with.structured_N(), 2);
+  constexpr double times_as_much = 2.0;
+  return without.much() && std::pow(without.structured_N(), 2) > times_as_much * std::pow(with.structured_N(), 2);
 }
 
 double nats_beside(const Hypothesis& h, double most_missed_nats) {
