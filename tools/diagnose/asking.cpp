@@ -53,13 +53,13 @@ Asking::Asking(const Fitter& fitter, const Fit& fit, const Whitening& whitening)
       whitening_(whitening),
       q_(orthonormal(fit.jacobian)),
       left_(fit.white - q_ * (q_.transpose() * fit.white)),
-      contacts_(model_.contacts(fit.model.axis, fit.model.effects)),
-      prepared_(model_.prepared(fit.model.axis, fit.model.effects, contacts_)),
+      standing_(model_.standing(fit.model.axis, model_.prepared(fit.model.axis, fit.model.effects,
+                                                                model_.contacts(fit.model.axis, fit.model.effects)))),
       blocks_(blocks_of(model_)),
       signs_(random_signs(blocks_.size())) {}
 
 Vector Asking::fall_of(const Active& more) const {
-  if (!more.hypothesis->friction) return model_.fall(fit_.model.axis, prepared_, fit_.residual, more);
+  if (!more.hypothesis->friction) return model_.fall(standing_, more);
   auto effects = fit_.model.effects;
   effects.push_back(more);
   return fit_.residual - model_.residual(fit_.model.axis, effects);
@@ -82,9 +82,14 @@ Columns Asking::columns_of(const Task& task) const {
   // only the rows of the equations that it touches count; what the model's own numbers can do comes off
   c.on_q = Eigen::MatrixXd::Zero(q_.cols(), count);
   for (const auto& s : model_.segments()) {
-    if (s.size == 0 || !(c.white.middleRows(s.start, s.size).cwiseAbs().maxCoeff() > 0.0)) continue;
-    c.touched += left_.segment(s.start, s.size).squaredNorm();
-    c.on_q.noalias() += q_.middleRows(s.start, s.size).transpose() * c.white.middleRows(s.start, s.size);
+    bool any = false;
+    for (Index k = 0; k < count; ++k) {
+      const auto part = c.white.col(k).segment(s.start, s.size);
+      if (s.size == 0 || !(part.cwiseAbs().maxCoeff() > 0.0)) continue;  // a line's amplitude is of one run
+      c.on_q.col(k).noalias() += q_.middleRows(s.start, s.size).transpose() * part;
+      any = true;
+    }
+    if (any) c.touched += left_.segment(s.start, s.size).squaredNorm();
   }
   const Vector before = c.white.colwise().squaredNorm();
   c.any = before.maxCoeff() > 0.0;

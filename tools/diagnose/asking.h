@@ -50,8 +50,7 @@ class Asking {
   const Whitening& whitening_;
   const Eigen::MatrixXd q_;  ///< directions of the model's own numbers
   const Vector left_;
-  const std::vector<ContactForces> contacts_;
-  const InverseModel::Prepared prepared_;
+  const InverseModel::Standing standing_;
   const std::vector<Segment> blocks_;
   const Eigen::MatrixXd signs_;
 };

@@ -49,15 +49,43 @@ void InverseModel::add_fall(std::size_t run, const Modelled& from, const Modelle
   }
 }
 
-Vector InverseModel::fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
-                          const Active& more) const {
+InverseModel::Standing InverseModel::standing(const plant::AxisParameters& axis, Prepared model) const {
+  Standing at{axis, std::move(model), {}, std::vector<Vector>(segments_.size())};
+  at.residual = residual(axis, at.model, Rows::weighted);
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const auto& [equation, run, start, size] = segments_[i];
+    if (equations_[equation].motor && size > 0)
+      at.balance_N[i] = balance_N(equations_[equation], run, axis, at.model.extra[run], at.model.base[run]);
+  }
+  return at;
+}
+
+Vector InverseModel::fall(const Standing& at, const Active& more) const {
   Vector rows = Vector::Zero(rows_);
+  std::vector<Contribution> alone(tracks_.size());
   for (std::size_t run = 0; run < tracks_.size(); ++run) {
-    Contribution alone;
-    more.hypothesis->apply({tracks_[run], axis, model.base[run]}, more.q, alone);
-    Contribution sum = model.extra[run];
-    add(sum, alone);
-    add_fall(run, {axis, model.extra[run], model.base[run]}, {axis, sum, model.base[run]}, residual, rows);
+    more.hypothesis->apply({tracks_[run], at.axis, at.model.base[run]}, more.q, alone[run]);
+    if (alone[run].table_mass_kg == 0.0 && alone[run].drive_step_N.size() == 0) continue;
+    Contribution sum = at.model.extra[run];  // not only added to the balance: all of it again
+    add(sum, alone[run]);
+    add_fall(run, {at.axis, at.model.extra[run], at.model.base[run]}, {at.axis, sum, at.model.base[run]}, at.residual, rows);
+    alone[run] = {};
+  }
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const auto& segment = segments_[i];
+    const auto& equation = equations_[segment.equation];
+    if (segment.size == 0) continue;
+    Vector change = added(equation, segment.run, alone[segment.run]);
+    if (change.size() == 0) continue;
+    if (equation.motor) {
+      const Vector& balance_N = at.balance_N[i];
+      for (Index k = 0; k < change.size(); ++k)
+        if (at_rest_[segment.run][static_cast<std::size_t>(k)] != 0)
+          change[k] = beyond_coulomb_N(balance_N[k] + change[k], at.axis) - beyond_coulomb_N(balance_N[k], at.axis);
+    }
+    gather(segment, change, rows);
+    auto part = rows.segment(segment.start, segment.size);
+    if (!equation.power) part *= -weight(equation, at.axis, at.model.extra[segment.run]);
   }
   return rows;
 }

@@ -40,8 +40,15 @@ Contribution contribution_of(const std::vector<Active>& effects, const View& vie
   return sum;
 }
 
-void subtract(Vector& from, const Vector& what) {
-  if (what.size() > 0) from -= what;
+/// By sample: does the axis stand, or did it a sample before, or will it a sample later?
+std::vector<char> stands_about(const Track& track) {
+  const auto slow = [&track](Index at) {
+    const Index i = std::clamp<Index>(at, 0, track.size - 1);
+    return std::abs(track.centred_m_per_s[i]) < standstill_m_per_s;
+  };
+  std::vector<char> stands;
+  for (Index i = 0; i < track.size; ++i) stands.push_back(slow(i) || slow(i - 1) || slow(i + 1) ? 1 : 0);
+  return stands;
 }
 
 /// The triangular mean over a sample to either side of what is known at the samples.
@@ -68,6 +75,7 @@ InverseModel::InverseModel(std::vector<Track> tracks, const plant::AxisParameter
       rows_ += size;
       power_ = power_ || equations_[e].power;
     }
+  for (const Track& track : tracks_) at_rest_.push_back(stands_about(track));
   weigh_noise();
   find_settled();
 }
@@ -107,60 +115,77 @@ Vector InverseModel::recorded_side(const Equation& equation, std::size_t run) co
   return y;
 }
 
-Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
-                                  const Contribution& extra, const Baseline& base) const {
+Vector InverseModel::added(const Equation& equation, std::size_t run, const Contribution& extra) const {
   const Track& track = tracks_[run];
-  if (equation.power) {
-    Vector model = base.power_W;
-    if (extra.power_W.size() > 0) model += extra.power_W;
-    for (const Vector* torque_N : {&extra.drive_N, &extra.metered_drive_N})
-      if (torque_N->size() > 0 && !track.meter.of_command) model += torque_N->cwiseProduct(track.metered_m_per_s);
-    return model;
-  }
-  Vector r = recorded_side(equation, run);
+  Vector sum;
+  const auto adds = [&sum](double sign, const Vector& more) {
+    if (more.size() == 0) return;
+    if (sum.size() == 0)
+      sum = sign * more;
+    else
+      sum += sign * more;
+  };
   if (equation.slip) {
-    subtract(r, extra.slip_m);
-    return r;
+    adds(-1.0, extra.slip_m);
+    return sum;
   }
+  if (equation.power) {
+    adds(1.0, extra.power_W);
+    for (const Vector* torque_N : {&extra.drive_N, &extra.metered_drive_N})
+      if (torque_N->size() > 0 && !track.meter.of_command) adds(1.0, torque_N->cwiseProduct(track.metered_m_per_s));
+    return sum;
+  }
+  if (equation.screw) adds(-1.0, meant(extra.screw_N));
+  if (equation.guide) adds(-1.0, meant(extra.guide_N));
+  if (equation.motor) {
+    adds(-1.0, meant(extra.motor_N));
+    adds(1.0, extra.drive_N);
+  }
+  if (equation.motor != equation.screw) adds(equation.motor ? 1.0 : -1.0, extra.torque_sensor_N);
+  if (equation.screw != equation.guide) adds(equation.screw ? 1.0 : -1.0, extra.force_sensor_N);
+  return sum;
+}
+
+Vector InverseModel::balance_N(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
+                               const Contribution& extra, const Baseline& base) const {
+  const Track& track = tracks_[run];
+  Vector r = recorded_side(equation, run);
   const double k = 2.0 * std::numbers::pi / axis.axis.lead_m;
   const double motor_kg = axis.motor.inertia_kgm2 * k * k, screw_kg = axis.ball_screw_inertia_kgm2 * k * k;
   const double table_kg = axis.guide_mass_kg + extra.table_mass_kg;
   const double per_mass = 1.0 / (motor_kg + screw_kg + table_kg);
-  Vector step_N = track.half_step_N;
-  if (extra.drive_step_N.size() > 0 && step_N.size() > 0) step_N += extra.drive_step_N;
-  if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * step_N;
-  if (equation.screw != equation.guide)
-    r += (equation.screw ? 1.0 : -1.0) * track.force_jump_share * table_kg * per_mass * step_N;
-  if (equation.screw) {
-    r -= screw_kg * track.acceleration_m_per_s2;
-    r -= base.screw_N;
-    subtract(r, meant(extra.screw_N));
-    if (!equation.motor) subtract(r, extra.torque_sensor_N);
-    if (!equation.guide && extra.force_sensor_N.size() > 0) r += extra.force_sensor_N;
+  if (equation.motor != equation.screw || equation.screw != equation.guide) {
+    Vector step_N = track.half_step_N;
+    if (extra.drive_step_N.size() > 0 && step_N.size() > 0) step_N += extra.drive_step_N;
+    if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * step_N;
+    if (equation.screw != equation.guide)
+      r += (equation.screw ? 1.0 : -1.0) * track.force_jump_share * table_kg * per_mass * step_N;
   }
-  if (equation.guide) {
-    // in one equation with the motor both masses must see the same noise, or the quieter ruler draws the mass to itself
-    r -= table_kg * (equation.screw || equation.motor ? track.acceleration_m_per_s2 : track.table_acceleration_m_per_s2);
-    r -= base.guide_N;
-    subtract(r, meant(extra.guide_N));
-    if (!equation.screw) subtract(r, extra.force_sensor_N);
+  if (equation.screw) r -= screw_kg * track.acceleration_m_per_s2 + base.screw_N;
+  // in one equation with the motor both masses must see the same noise, or the quieter ruler draws the mass to itself
+  const bool one = equation.screw || equation.motor;
+  if (equation.guide) r -= table_kg * (one ? track.acceleration_m_per_s2 : track.table_acceleration_m_per_s2) + base.guide_N;
+  if (equation.motor) r -= motor_kg * track.acceleration_m_per_s2;
+  if (const Vector more = added(equation, run, extra); more.size() > 0) r += more;
+  return r;
+}
+
+double InverseModel::beyond_coulomb_N(double balance_N, const plant::AxisParameters& axis) {
+  return balance_N - std::clamp(balance_N, -axis.motor.coulomb_N.neg, axis.motor.coulomb_N.pos);
+}
+
+Vector InverseModel::raw_residual(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
+                                  const Contribution& extra, const Baseline& base) const {
+  if (equation.power || equation.slip) {
+    Vector r = equation.power ? base.power_W : recorded_side(equation, run);
+    if (const Vector more = added(equation, run, extra); more.size() > 0) r += more;
+    return r;
   }
-  if (equation.motor) {
-    r -= motor_kg * track.acceleration_m_per_s2;
-    if (!equation.screw && extra.torque_sensor_N.size() > 0) r += extra.torque_sensor_N;
-    subtract(r, meant(extra.motor_N));
-    if (extra.drive_N.size() > 0) r += extra.drive_N;
-  }
+  Vector r = balance_N(equation, run, axis, extra, base);
   if (!equation.motor) return r;
   // the motor's Coulomb friction: as it must be in motion, whatever is needed within its bounds at rest
-  const auto slow = [&](Index at) {
-    const Index i = std::clamp<Index>(at, 0, track.size - 1);
-    return std::abs(track.centred_m_per_s[i]) < standstill_m_per_s;
-  };
-  for (Index i = 0; i < track.size; ++i) {
-    const bool at_rest = slow(i) || slow(i - 1) || slow(i + 1);
-    r[i] -= at_rest ? std::clamp(r[i], -axis.motor.coulomb_N.neg, axis.motor.coulomb_N.pos) : base.motor_N[i];
-  }
+  for (Index i = 0; i < r.size(); ++i)
+    r[i] = at_rest_[run][static_cast<std::size_t>(i)] != 0 ? beyond_coulomb_N(r[i], axis) : r[i] - base.motor_N[i];
   return r;
 }
 

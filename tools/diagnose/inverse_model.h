@@ -84,10 +84,16 @@ class InverseModel {
   };
   [[nodiscard]] Prepared prepared(const plant::AxisParameters& axis, const std::vector<Active>& effects,
                                   const std::vector<ContactForces>& contacts) const;
-  /// Fall of the residual when one more effect that does not change friction joins a prepared model. Only what it touches is
-  /// computed; `residual` is the prepared model's own.
-  [[nodiscard]] Vector fall(const plant::AxisParameters& axis, const Prepared& model, const Vector& residual,
-                            const Active& more) const;
+  /// A prepared model that one more effect after another is asked beside.
+  struct Standing {
+    const plant::AxisParameters& axis;
+    Prepared model;
+    Vector residual;                ///< weighted
+    std::vector<Vector> balance_N;  ///< by segment, of the motor's equations: before its friction at rest takes its share
+  };
+  [[nodiscard]] Standing standing(const plant::AxisParameters& axis, Prepared model) const;
+  /// Fall of the residual when one more effect that does not change friction joins. Only what it touches is computed.
+  [[nodiscard]] Vector fall(const Standing& at, const Active& more) const;
   /// What a model says along one run.
   struct Modelled {
     const plant::AxisParameters& axis;
@@ -111,6 +117,13 @@ class InverseModel {
   [[nodiscard]] Baseline baseline(const plant::AxisParameters& axis, const ContactForces& contacts, std::size_t run) const;
 
  private:
+  /// What an effect adds to a balance of forces, a slip or a power; empty where it adds nothing.
+  [[nodiscard]] Vector added(const Equation& equation, std::size_t run, const Contribution& extra) const;
+  /// Force commanded or read less force needed for the motion, before the motor's Coulomb friction.
+  [[nodiscard]] Vector balance_N(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
+                                 const Contribution& extra, const Baseline& base) const;
+  /// What the motor's Coulomb friction leaves of a balance at rest: whatever is needed within its bounds.
+  [[nodiscard]] static double beyond_coulomb_N(double balance_N, const plant::AxisParameters& axis);
   [[nodiscard]] Vector raw_residual(const Equation& equation, std::size_t run, const plant::AxisParameters& axis,
                                     const Contribution& extra, const Baseline& base) const;
   /// Part of the noise is the measured acceleration's and grows with the mass: unweighted, a smaller mass would shrink it.
@@ -119,6 +132,8 @@ class InverseModel {
   /// Standard deviation of the measured acceleration about a smooth one, and the share of an equation's noise that it makes.
   void weigh_noise();
   void find_settled();
+  /// What is said sample by sample, row by row: the low pass, or the mean over a meter's window.
+  void gather(const Segment& segment, const Vector& raw, Vector& rows) const;
   void store(const Segment& segment, const Vector& raw, Vector& rows) const;
 
   std::vector<Track> tracks_;
@@ -129,6 +144,7 @@ class InverseModel {
   std::vector<double> acceleration_share_;  ///< of each equation's noise variance
   RowNoise noise_;
   std::vector<bool> settled_;
+  std::vector<std::vector<char>> at_rest_;  ///< by run and sample: stands, or did a sample before, or will a sample later
   Index rows_ = 0;
   bool power_ = false;
 };

@@ -84,20 +84,21 @@ Index InverseModel::sample_of(const Segment& segment, Index row) const {
   return margin + row * samples_a_row();
 }
 
-void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows) const {
-  const Track& track = tracks_[segment.run];
-  if (equations_[segment.equation].power) {
-    for (Index i = 0; i < segment.size; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      rows[segment.start + i] = track.meter.power_W[at] - raw.segment(track.meter.starts[at], track.meter.length).mean();
-    }
-    return;
-  }
+void InverseModel::gather(const Segment& segment, const Vector& raw, Vector& rows) const {
+  const auto& meter = tracks_[segment.run].meter;
+  const auto& equation = equations_[segment.equation];
+  auto part = rows.segment(segment.start, segment.size);
   for (Index i = 0; i < segment.size; ++i)
-    rows[segment.start + i] = low_pass_.dot(raw.segment(margin + i * samples_a_row() - taps / 2, taps));
-  if (!equations_[segment.equation].slip) return;
-  auto part = rows.segment(segment.start, segment.size);  // where either ruler has its zero tells nothing
-  part.array() -= part.mean();
+    part[i] = equation.power ? raw.segment(meter.starts[static_cast<std::size_t>(i)], meter.length).mean()
+                             : low_pass_.dot(raw.segment(margin + i * samples_a_row() - taps / 2, taps));
+  if (equation.slip) part.array() -= part.mean();  // where either ruler has its zero tells nothing
+}
+
+void InverseModel::store(const Segment& segment, const Vector& raw, Vector& rows) const {
+  gather(segment, raw, rows);
+  if (!equations_[segment.equation].power) return;
+  auto part = rows.segment(segment.start, segment.size);
+  part = Eigen::Map<const Vector>(tracks_[segment.run].meter.power_W.data(), segment.size) - part;
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -92,6 +92,25 @@ TEST_P(NeighboursOfRandomModels, FallAsTheWholeResidualDoes) {
   }
 }
 
+TEST_P(NeighboursOfRandomModels, OneMoreEffectFallsAsTheWholeResidualDoes) {
+  const auto contacts = model_.contacts(at_.axis, at_.effects);
+  const auto standing = model_.standing(at_.axis, model_.prepared(at_.axis, at_.effects, contacts));
+  const Vector here = model_.residual(at_.axis, at_.effects, contacts);
+  int asked = 0;
+  for (const auto& hypothesis : hypotheses()) {
+    if (hypothesis.friction || !gives_forces(hypothesis)) continue;
+    const Active more = drawn(hypothesis);
+    auto effects = at_.effects;
+    effects.push_back(more);
+    const Vector whole = here - model_.residual(at_.axis, effects, contacts);
+    const Vector fall = model_.fall(standing, more);
+    EXPECT_LT((fall - whole).cwiseAbs().maxCoeff(), 1e-9 * here.cwiseAbs().maxCoeff() + 1e-6 * whole.cwiseAbs().maxCoeff())
+        << hypothesis.id;
+    asked += whole.cwiseAbs().maxCoeff() > 0.0;
+  }
+  EXPECT_GT(asked, 20);
+}
+
 TEST_P(NeighboursOfRandomModels, FollowFrictionAsWhenAskedAlone) {
   const auto all = beside();
   std::vector<InverseModel::Asked> asked{{&at_.axis, &at_.effects}};

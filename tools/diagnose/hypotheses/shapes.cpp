@@ -24,8 +24,12 @@ const Circle& circle_of(const Vector& x, double turn) {
     if (circle.turn == turn && circle.x.size() == x.size() && circle.x == x) return circle;
   Circle& circle = kept[oldest];
   oldest = (oldest + 1) % kept.size();
-  const Eigen::ArrayXd angle = turn * x.array();
-  circle = {x, turn, angle.sin(), angle.cos()};
+  circle = {x, turn, Eigen::ArrayXd(x.size()), Eigen::ArrayXd(x.size())};
+  for (Index k = 0; k < x.size(); ++k) {  // both of one angle at once
+    const double angle = turn * x[k];
+    circle.sine[k] = std::sin(angle);
+    circle.cosine[k] = std::cos(angle);
+  }
   return circle;
 }
 
