@@ -12,6 +12,7 @@
 #include "tools/config/toml_file.h"
 #include "tools/recording/checks.h"
 #include "tools/recording/power_meter.h"
+#include "tools/recording/repeated_readings.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -133,6 +134,12 @@ Case read_case(const std::string& path) {
   }
   result.fit = recordings(file, "fit", map, result);
   result.holdout = recordings(file, "holdout", map, result);
+  if (const std::size_t readings = readings_of_one_window(result.fit); readings > 1) {
+    result.remarks.push_back(
+        fmt::format("the power meter shows each window {} times: the mean of these is taken", readings));
+    for (auto* some : {&result.fit, &result.holdout})
+      for (auto& recording : *some) join_readings(recording, readings);
+  }
   const MeterHabit meter = meter_habit(result.fit, result.axis);
   for (auto* some : {&result.fit, &result.holdout})
     for (auto& recording : *some) recording.meter = meter;
