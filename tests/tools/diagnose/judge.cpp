@@ -51,6 +51,28 @@ TEST_F(Judged, AnEffectIsComparedWithOthersWhereItActs) {
   EXPECT_EQ(strengths(model, with, without_bump, true, Bar{}, there)[rows.equation], 3.0);
 }
 
+// No other stretch foretells a limit that is met once: where it leaves much over it is believed all the same, and where it
+// acts all along it must hold on what it was not fitted to.
+TEST_F(Judged, ALimitThatIsMetOnceIsHeldToNoOtherStretch) {
+  const auto& law = hypothesis("torque_saturation");
+  const Index rows = model.rows(), in_one_second = static_cast<Index>(1.0 / model.tracks().front().row_s()) - 30;
+  for (const bool once : {true, false}) {
+    Fit without;
+    without.base = {fitter.base().front()};
+    without.jacobian = Eigen::MatrixXd::Constant(rows + 1, 1, 1e-3);
+    without.white = Vector::Constant(rows + 1, 0.1);
+    without.cost = without.white.squaredNorm();
+    Fit with = without;
+    with.model.effects = {{&law, {1.0, 100.0}}};
+    with.jacobian.conservativeResizeLike(Eigen::MatrixXd::Zero(rows + 1, 3));
+    with.jacobian.col(1).head(once ? in_one_second : rows).setConstant(10.0);
+    Verdict verdict{.gain = 5000.0, .surprise = 0.0, .strength = 1.2};
+    EXPECT_EQ(on_unseen(model, with, without, law, verdict, Bar{}).holds, once);
+    verdict.gain = 2000.0, verdict.strength = 0.7;
+    EXPECT_FALSE(on_unseen(model, with, without, law, verdict, Bar{}).holds);
+  }
+}
+
 // A gain that all numbers behind it could do leaves nothing over; that they would all be far off by the same tells it.
 TEST_F(Judged, NumbersThatWouldBeFarOffNameWhatLeavesNothingOver) {
   Fit with, without;

@@ -18,7 +18,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.2;
+  return q[0] > 0.0;
 }
 
 }  // namespace
