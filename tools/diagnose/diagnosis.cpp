@@ -74,7 +74,7 @@ class Diagnosing {
   /// What the inverse model asks for and the closed loop bears out.
   void explain() {
     fitter_.take_effects(motor_as_it_sets_in(forward_, fitter_, progress_));
-    found_ = search(fitter_, Bar{}, progress_);
+    found_ = search(fitter_, bar_for(data_.axis), progress_);
     fit_ = found_.final;
     settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
     search_anew_if_the_motor_sets_in();
@@ -117,7 +117,7 @@ class Diagnosing {
     settled_ = ask_how_motor_sets_in(forward_, fitter_, found_, fit_, std::move(settled_), progress_);
     if (known || motor_presliding_m(fit_.model.axis) == 0.0) return;
     fitter_.take_effects(fit_.model.axis.effects);
-    found_ = search(fitter_, Bar{}, progress_);
+    found_ = search(fitter_, bar_for(data_.axis), progress_);
     fit_ = found_.final;
     settled_ = ask_how_stiff(forward_, fitter_, found_, fit_, progress_);
   }
@@ -195,9 +195,10 @@ class Diagnosing {
     auto ways = ways_of(fit_.model);
     if (result_.effects.empty()) ways.push_back(extended(found_.recalibrated.model)), ways.push_back(data_.axis);
     result_.updated = ways[closest(forward_, ways)].common;
-    if (!anything_missing(result_)) result_.suspects = suspects(fitter_, found_, by_inverse_model_, Bar{}, progress_);
+    if (!anything_missing(result_))
+      result_.suspects = suspects(fitter_, found_, by_inverse_model_, bar_for(data_.axis), progress_);
     result_.verdict = verdict_of(result_);
-    result_.detection_limit_N = 0.2 * std::max(Bar{}.force_N, found_.whitening.residual_rms(0));
+    result_.detection_limit_N = 0.2 * std::max(bar_for(data_.axis).force_N, found_.whitening.residual_rms(0));
     told_ = unknown_ ? only_what_the_force_does_not_show(result_, found_, fit_.model) : fit_.model;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "tools/diagnose/size_of_axis.h"
 #include "tools/linear_systems.h"
 #include "tools/parallel.h"
 
@@ -86,6 +87,13 @@ double prior_part(const Fit& fit) {
 }
 
 }  // namespace
+
+Bar bar_for(const plant::AxisParameters& nominal) {
+  Bar bar;
+  bar.force_N *= newton_of(nominal);
+  bar.power_W *= newton_of(nominal);
+  return bar;
+}
 
 std::vector<double> strengths(const InverseModel& model, const Fit& with, const Fit& without, bool about_reversals,
                               const Bar& bar, const std::vector<bool>& only) {

@@ -9,6 +9,7 @@
 #include "plant/effects/registry.h"
 #include "plant/effects/table.h"
 #include "tools/diagnose/remainder.h"
+#include "tools/diagnose/size_of_axis.h"
 #include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -165,7 +166,9 @@ Learned learn_remainder(const InverseModel& model, const Candidate& at) {
   Learned table = learn_from(remainder_of(model, at, Forces::of_the_table));
   table.on_the_table = true;
   const auto explained = [](const Learned& l) { return l.share_unseen * l.remainder_N * l.remainder_N; };
-  return table.share_unseen > 0.0 && explained(table) > explained(sum) ? table : sum;
+  Learned& more = table.share_unseen > 0.0 && explained(table) > explained(sum) ? table : sum;
+  more.newton = newton_of(model.nominal());
+  return more;
 }
 
 std::string in_words(const Learned& learned) {

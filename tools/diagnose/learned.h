@@ -19,6 +19,7 @@ struct Learned {
   double share_unseen = 0.0;                                       ///< of the remainder on runs that it was not learned from
   double remainder_N = 0.0;                                        ///< RMS of the remainder there
   double low = 0.0, high = 0.0;                                    ///< where most of it acts
+  double newton = 1.0;                                             ///< what stands for one on this axis (size_of_axis.h)
   bool on_the_table = false;                                       ///< of what the table's own force sensor shows
   std::optional<Mode> mode;                                        ///< a part that rings, in place of the table
 };

@@ -7,6 +7,7 @@
 
 #include "tools/diagnose/beat.h"
 #include "tools/diagnose/folded.h"
+#include "tools/diagnose/size_of_axis.h"
 #include "tools/linear_systems.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -81,10 +82,10 @@ double rms_of(const std::vector<double>& values) {
          std::sqrt(static_cast<double>(values.size()));
 }
 
-ReadingStructure structure_of_reading(const ReadingRows& rows, const Vector& residual) {
+ReadingStructure structure_of_reading(const ReadingRows& rows, const Vector& residual, double newton) {
   ReadingStructure found;
   found.channel = rows.channel;
-  if (rows.of_force) found.per_N = rows.per_unit;
+  if (rows.of_force) found.per_N = rows.per_unit, found.newton = newton;
   if (rows.channel != channel::scale_position_m) found.read = rows.per_unit * rms_of(rows.reading);
   const Vector shown_behind = residual(rows.after), after = without_numbers(shown_behind, rows.numbers);
   Vector before = Vector::Zero(after.size()), y = after, shown = shown_behind;
@@ -127,7 +128,7 @@ bool ReadingStructure::stands_out() const {
   const bool by_itself = follows == Follows::reading_by_step || follows == Follows::time || by_rest;
   const bool power_by_clock = channel == channel::power_W && (follows == Follows::time || by_rest);
   return share > (power_by_clock ? least_by_clock : least) && of_reading > least_of_reading &&
-         (per_N == 0.0 || structured() > least_N * per_N) && (by_itself || structured() > least_of_read * read);
+         (per_N == 0.0 || structured() > least_N * newton * per_N) && (by_itself || structured() > least_of_read * read);
 }
 
 std::vector<ReadingStructure> structure_of_readings(const InverseModel& model, const Candidate& at) {
@@ -137,7 +138,8 @@ std::vector<ReadingStructure> structure_of_readings(const InverseModel& model, c
   for (auto& power : rows_of_power(model, residual))
     if (!model.tracks().front().meter.of_command) channels.push_back(std::move(power));
   for (const auto& rows : channels)
-    if (rows.columns.cols() >= least_readings) all.push_back(structure_of_reading(rows, residual));
+    if (rows.columns.cols() >= least_readings)
+      all.push_back(structure_of_reading(rows, residual, newton_of(model.nominal())));
   return all;
 }
 

@@ -33,6 +33,9 @@ struct Bar {
   std::size_t most_effects = 8;
 };
 
+/// On an axis of this size.
+[[nodiscard]] Bar bar_for(const plant::AxisParameters& nominal);
+
 /// `Found::error_ratio` of a name that explains most of a channel.
 inline constexpr double explains_most_ratio = 5.0;
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "tools/diagnose/moments.h"
+#include "tools/diagnose/size_of_axis.h"
 #include "tools/diagnose/taken_up.h"
 #include "tools/linear_systems.h"
 
@@ -151,7 +152,7 @@ double Structure::structured_N() const {
 bool Structure::much() const {
   // one of 300 made cases with nothing hidden had 0.134, and 0.66 N, beside a memory before sliding that was none
   constexpr double least_N = 0.5;
-  return share > least_share_of_much && structured_N() > least_N;
+  return share > least_share_of_much && structured_N() > least_N * newton;
 }
 
 RepeatableStructure::RepeatableStructure(const InverseModel& model) : model_(model), places_(model.tracks().size()) {
@@ -245,6 +246,7 @@ Structure RepeatableStructure::of_the_table(const Vector& residual) const {
 
 Structure RepeatableStructure::within(Vector y) const {
   Structure found;
+  found.newton = newton_of(model_.nominal());
   if (additive_.moments() == 0) return found;
   y -= numbers_ * least_squares(numbers_, y);
   const double before = y.squaredNorm();

@@ -23,6 +23,7 @@ struct Structure {
   double share = 0.0;         ///< of its square that the additive model predicts on seconds it has not seen; may be negative
   double gives_way = 0.0;     ///< of that share what only springs that give way with time predict
   std::optional<Mode> rings;  ///< where a part that rings is most of it
+  double newton = 1.0;        ///< what stands for one on this axis (size_of_axis.h)
   [[nodiscard]] double structured_N() const;
   /// So much is `unknown` beside names too, where they leave it.
   [[nodiscard]] bool much() const;

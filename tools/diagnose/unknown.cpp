@@ -41,16 +41,16 @@ bool repeats(const Learned& learned) {
   const double table_N = std::sqrt(std::max(0.0, learned.share_unseen)) * learned.remainder_N;
   const bool since_reversal = learned.axis == Where::reversal;
   const double smallest_share = since_reversal ? smallest_share_since_reversal : smallest_share_unseen;
-  return (learned.share_unseen > smallest_share && learned.remainder_N > smallest_remainder_N) ||
-         (!since_reversal && learned.share_unseen > lesser_share_unseen && table_N > smallest_table_N) ||
-         (!since_reversal && learned.share_unseen > clear_share_unseen && table_N > smallest_clear_N);
+  return (learned.share_unseen > smallest_share && learned.remainder_N > smallest_remainder_N * learned.newton) ||
+         (!since_reversal && learned.share_unseen > lesser_share_unseen && table_N > smallest_table_N * learned.newton) ||
+         (!since_reversal && learned.share_unseen > clear_share_unseen && table_N > smallest_clear_N * learned.newton);
 }
 
 bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learned& learned) {
   const double table_N = std::sqrt(std::max(0.0, learned.share_unseen)) * learned.remainder_N;
   const auto laws = std::ranges::count_if(named, [](const NamedEffect& e) { return e.hypothesis->law_of_speed; });
   return laws >= 2 && learned.axis == Where::velocity && learned.share_unseen > least_share_beside_laws &&
-         table_N > smallest_table_N;
+         table_N > smallest_table_N * learned.newton;
 }
 
 void tell_what_rings(const Structure& left, Learned& told) {

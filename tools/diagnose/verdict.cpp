@@ -25,7 +25,7 @@ struct Squares {
 /// 0.41 and more.
 bool only_a_bite(const Structure& after, const Squares& squares) {
   constexpr double least_share = 0.3, least_N = 0.3, least_left = 0.35;
-  return after.share > least_share && after.structured_N() > least_N && squares.share_left() > least_left;
+  return after.share > least_share && after.structured_N() > least_N * after.newton && squares.share_left() > least_left;
 }
 
 /// Most of what the runs are off by is the name's: a hidden compensation that the numbers had half taken up left 9 times as
@@ -53,7 +53,7 @@ bool certain(const SearchResult& found, const Structure& after, const Squares& s
 /// thirteenth from the sum.
 bool stands_out_on_the_table(const Structure& table) {
   constexpr double least_share = 0.4, least_N = 0.3;
-  return table.share > least_share && table.structured_N() > least_N;
+  return table.share > least_share && table.structured_N() > least_N * table.newton;
 }
 
 /// What the sensor adds is in the equation before it too, turned round: then it is not the table's.
@@ -105,9 +105,9 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
   if (nothing_named && on_the_table(found.recalibrated.residual) && on_the_table(residual) &&
       !force_sensor_shows_more(fitter.model(), final))
     return true;
-  const bool enough =
-      after.much() || (after.share > most_of_it && after.structured_N() > least_of_most_N) ||
-      (nothing_named && after.share > where_nothing_is_named && after.structured_N() > least_where_nothing_is_named_N);
+  const bool enough = after.much() || (after.share > most_of_it && after.structured_N() > least_of_most_N * after.newton) ||
+                      (nothing_named && after.share > where_nothing_is_named &&
+                       after.structured_N() > least_where_nothing_is_named_N * after.newton);
   return (only_a_bite(after, squares) && !explains_most(found)) ||
          (enough && squares.share_left() > unexplained && !certain(found, after, squares));
 }

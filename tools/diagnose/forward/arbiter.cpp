@@ -6,6 +6,7 @@
 
 #include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/forward/likeliest_start.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -38,9 +39,10 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
   for (const auto& score : scores_of(asked, fitter_, less, found.whitening)) {
     std::erase(entry->rivals, score.hypothesis);
     if (score.gain <= 0.0) continue;
-    const Fit other = fit_with(fitter_, less.model, score, e, found.whitening, refit_iterations);
+    Fit other = fit_with(fitter_, less.model, score, e, found.whitening, refit_iterations);
     if (other.cost - fit.cost > hopeless * (less.cost - fit.cost) || !can_be_named(other.model.effects[e], other.model.axis))
       continue;
+    other.model = at_likeliest_start(forward_, other.model);
     Ruling rival = rule_beside(now, other, forward_, fitter_, SlopesOf::anew, now.value);
     if (!can_be_named(rival.model.effects[e], rival.model.axis)) continue;
     contest(now, rival, forward_, fitter_);
@@ -69,6 +71,7 @@ bool Arbiter::exchanged(SearchResult& found, Fit& fit, Ruling& now, std::size_t 
 std::optional<Ruling> Arbiter::settle(SearchResult& found, Fit& fit, std::optional<Ruling> before) const {
   if (found.found.empty()) return before;
   constexpr int most_exchanges = 3;
+  if (!before) fit.model = at_likeliest_start(forward_, fit.model);
   Ruling now = before ? std::move(*before) : rule(fit, forward_, fitter_);
   std::vector<const Hypothesis*> beaten;
   int exchanges = 0;

@@ -36,8 +36,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"amplitude_N", line_amplitude(q)}, {"cycles_per_rev", rate_of_line(q)}};
 }
 
-/// A whole number above two is the motor's: poles and slots.
+/// A whole number above two is the motor's: poles and slots. Balls go round with the screw 0.4 times a turn and more: what
+/// is slower is a matter of place.
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
+  if (rate_of_line(q) < 0.4) return false;
   return rate_of_line(q) < 2.05 || std::abs(rate_of_line(q) - std::round(rate_of_line(q))) > 0.02;
 }
 
