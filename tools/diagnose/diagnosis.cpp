@@ -147,12 +147,8 @@ class Diagnosing {
     if (fit_.model.effects.size() < before) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
   }
 
-  [[nodiscard]] Eigen::MatrixXd covariance_of(const Fit& fit) const {
-    return std::max(1.0, fit.cost / static_cast<double>(model_.rows())) * robust_covariance(model_, fit);
-  }
-
   void polish_numbers() {
-    covariance_ = covariance_of(fit_);
+    covariance_ = robust_covariance(model_, fit_);
     by_inverse_model_ = fit_;
     progress_("polishing the numbers by closed-loop simulation");
     if (!unknown_) take_polished(polish_settled(settled_, fit_.model, forward_, fitter_));
@@ -172,6 +168,7 @@ class Diagnosing {
     std::erase_if(left.effects, [&](const Active& then) { return !has(fit_.model, *then.hypothesis); });
     ask_again_what_is_unknown(named, fitter_.fit(left, found_.whitening, refit_iterations).model);
     fit_.model = polished_if_closer(forward_, fitter_, fit_.model);
+    drop_sizeless(forward_, fitter_, by_inverse_model_.model, found_, fit_, covariance_, progress_);
   }
 
   /// Names, numbers and the axis that holds them.
@@ -195,8 +192,7 @@ class Diagnosing {
     auto ways = ways_of(fit_.model);
     if (result_.effects.empty()) ways.push_back(extended(found_.recalibrated.model)), ways.push_back(data_.axis);
     result_.updated = ways[closest(forward_, ways)].common;
-    if (!anything_missing(result_))
-      result_.suspects = suspects(fitter_, found_, by_inverse_model_, bar_for(data_.axis), progress_);
+    if (!anything_missing(result_)) result_.suspects = suspects(fitter_, found_, by_inverse_model_, progress_);
     result_.verdict = verdict_of(result_);
     result_.detection_limit_N = 0.2 * std::max(bar_for(data_.axis).force_N, found_.whitening.residual_rms(0));
     told_ = unknown_ ? only_what_the_force_does_not_show(result_, found_, fit_.model) : fit_.model;
@@ -266,7 +262,7 @@ class Diagnosing {
 
   void tell_the_numbers_alone() {
     told_ = found_.recalibrated.model;
-    result_.recalibrated = recalibrated(fitter_, found_.recalibrated, covariance_of(found_.recalibrated));
+    result_.recalibrated = recalibrated(fitter_, found_.recalibrated, robust_covariance(model_, found_.recalibrated));
     if (result_.motor_presliding_m > 0.0) result_.motor_presliding_m = motor_presliding_m(told_.axis);
     show();
   }

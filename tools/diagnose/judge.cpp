@@ -197,7 +197,8 @@ Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit) {
       (steps.colwise() - centre).rowwise().squaredNorm() * (static_cast<double>(groups - 1) / static_cast<double>(groups));
   const Vector widening =
       variance.cwiseQuotient(fit.covariance.diagonal().cwiseMax(1e-300)).cwiseMax(1.0).cwiseMin(widest * widest).cwiseSqrt();
-  return widening.asDiagonal() * fit.covariance * widening.asDiagonal();
+  const double left_over = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
+  return left_over * widening.asDiagonal() * fit.covariance * widening.asDiagonal();
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -29,8 +29,9 @@ bool holds(const InverseModel& model, const Fit& with, const Fit& without, const
 
 }  // namespace
 
-std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, const Fit& fit, const Bar& bar,
+std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, const Fit& fit,
                               const std::function<void(std::string_view)>& progress) {
+  const Bar bar = bar_for(fitter.nominal());
   std::vector<Suspect> all;
   std::size_t tried = 0;
   for (const auto& score : found.last.scores) {

@@ -18,7 +18,7 @@ struct Suspect {
 };
 
 /// Strongest first. Only what unseen folds bear out and what the nominal numbers could not do as well.
-[[nodiscard]] std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, const Fit& fit, const Bar& bar,
+[[nodiscard]] std::vector<Suspect> suspects(const Fitter& fitter, const SearchResult& found, const Fit& fit,
                                             const std::function<void(std::string_view)>& progress);
 
 }  // namespace feedtwin::tools::diagnosis
