@@ -96,6 +96,23 @@ TEST(HardStop, MayBeABufferButNoSpringOfTheWholeTravel) {
   EXPECT_FALSE(can_be(200.0));
 }
 
+TEST(CopperLoss, IsSmallWhereTheMotorIsLarge) {
+  EXPECT_TRUE(possible({&hypothesis("copper_loss"), {0.06}}, plant::source_axis()));
+  EXPECT_FALSE(possible({&hypothesis("copper_loss"), {0.0}}, plant::source_axis()));
+}
+
+// Balls go round with the screw 0.4 times a turn; slower is place.
+TEST(RevRipple, IsNoSlowerThanTheBallsGoRound) {
+  for (const auto* id : {"rev_ripple", "rev_ripple_of_friction"}) {
+    const auto can_be = [&](double order) {
+      return possible({&hypothesis(id), {1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, order}}, plant::source_axis());
+    };
+    EXPECT_TRUE(can_be(0.45)) << id;
+    EXPECT_FALSE(can_be(0.36)) << id;
+    EXPECT_FALSE(can_be(8.0)) << id << ": the motor's";
+  }
+}
+
 TEST(PositionFriction, MayBeOfTheViscousPartAlone) {
   const auto can_be = [](double share, double forth, double back) {
     return possible({&hypothesis("position_friction"), {share, forth, back}}, plant::source_axis());

@@ -18,13 +18,13 @@ namespace {
 
 using namespace tools::diagnosis;
 
-constexpr double frequency_Hz = 34.4;
+constexpr double tooth_Hz = 34.4;
 
-std::vector<tools::Recording> runs_with(double amplitude_N, double from_m, double to_m) {
+std::vector<tools::Recording> runs_with(double tooth_N, double from_m, double to_m) {
   auto axis = plant::source_axis();
-  axis.effects.push_back(tests::effect("process_force_against_motion", {{"opposing_N", 1.2 * amplitude_N},
-                                                                        {"amplitude_N", amplitude_N},
-                                                                        {"frequency_Hz", frequency_Hz},
+  axis.effects.push_back(tests::effect("process_force_against_motion", {{"opposing_N", 1.2 * tooth_N},
+                                                                        {"amplitude_N", tooth_N},
+                                                                        {"frequency_Hz", tooth_Hz},
                                                                         {"from_m", from_m},
                                                                         {"to_m", to_m}}));
   std::vector<tools::Recording> runs;
@@ -41,7 +41,7 @@ const Score& score_of(const Screen& screened) {
 TEST(Workpiece, IsFoundWithItsPlaceAndTheForceInIt) {
   const auto nominal = plant::source_axis();
   const tests::FittedRuns made(runs_with(4.0, -0.005, 0.008), nominal);
-  const auto place = place_of_line(made.model, turned(made.model, made.fit.white), frequency_Hz);
+  const auto place = place_of_line(made.model, turned(made.model, made.fit.white), tooth_Hz);
   ASSERT_TRUE(place.has_value());
   EXPECT_NEAR(place->first, -0.005, 1e-3);
   EXPECT_NEAR(place->second, 0.008, 1e-3);
@@ -51,7 +51,7 @@ TEST(Workpiece, IsFoundWithItsPlaceAndTheForceInIt) {
   const auto named = process.hypothesis->named(process.q, nominal);
   EXPECT_NEAR(named[0].value, 4.8, 0.5);
   EXPECT_NEAR(named[1].value, 4.0, 0.3);
-  EXPECT_NEAR(named[2].value, frequency_Hz, 0.02);
+  EXPECT_NEAR(named[2].value, tooth_Hz, 0.02);
   EXPECT_EQ(told_id(*process.hypothesis), "process_force");
   Found found;
   found.effect = process;
@@ -62,13 +62,13 @@ TEST(Workpiece, IsFoundWithItsPlaceAndTheForceInIt) {
 
 TEST(Workpiece, AlongTheWholeTravelIsNoPlace) {
   const tests::FittedRuns made(runs_with(4.0, -1.0, 1.0), plant::source_axis());
-  EXPECT_FALSE(place_of_line(made.model, turned(made.model, made.fit.white), frequency_Hz).has_value());
+  EXPECT_FALSE(place_of_line(made.model, turned(made.model, made.fit.white), tooth_Hz).has_value());
 }
 
 // The line of a motor that runs all the time keeps its sign: turned, it falls apart.
 TEST(Workpiece, AFloorsLineDoesNotTurn) {
   auto axis = plant::source_axis();
-  axis.effects.push_back(tests::effect("floor_vibration", {{"acceleration_m_per_s2", 0.5}, {"frequency_Hz", frequency_Hz}}));
+  axis.effects.push_back(tests::effect("floor_vibration", {{"acceleration_m_per_s2", 0.5}, {"frequency_Hz", tooth_Hz}}));
   std::vector<tools::Recording> runs;
   for (const char* motion : {"sine", "triangle"})
     runs.push_back(tests::make_recording(axis, {.motion = motion, .duration_s = 8.0}));
