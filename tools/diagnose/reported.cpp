@@ -53,6 +53,7 @@ std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Ei
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (hidden(active, axis, i)) continue;
     Vector slope = Vector::Zero(covariance.rows());
+    bool is_a_size = false;
     for (std::size_t j = 0; j < active.q.size(); ++j) {
       if (places[j] < 0 || of_no_run(active, j)) continue;
       const double sigma = std::sqrt(std::max(0.0, covariance(places[j], places[j])));
@@ -60,10 +61,12 @@ std::vector<std::pair<std::string, Estimate>> estimates(const Fit& fit, const Ei
       auto near = active.q;
       near[j] += step;
       slope[places[j]] = (active.hypothesis->named(near, axis)[i].value - now[i].value) / step;
+      is_a_size |= active.hypothesis->parameters[j].kind == Kind::amplitude && slope[places[j]] != 0.0;
     }
+    const double by_law = is_a_size ? active.hypothesis->law_error * now[i].value : 0.0;
     const double sigma = std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
     if (sigma > 1e3 * (std::abs(now[i].value) + 1e-9)) continue;  // of a channel that is not there
-    const double half = for_the_laws * normal_90 * sigma;
+    const double half = normal_90 * std::hypot(for_the_laws * sigma, by_law);
     out.push_back({now[i].name, {now[i].value, now[i].value - half, now[i].value + half}});
   }
   return out;

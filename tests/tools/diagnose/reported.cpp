@@ -43,6 +43,26 @@ TEST(NamedEffect, AnotherLawOfTheSamePhysicsIsNoAlternative) {
   EXPECT_EQ(told.alternatives, std::vector<std::string>{"local_friction"});
 }
 
+// However well the runs hold a number, its law is a simplification; where a line stands is none.
+TEST(NamedEffect, IsNoSurerOfASizeThanItsLawIs) {
+  const auto axis = plant::source_axis();
+  const tests::FittedRuns fitted({tests::make_recording(axis, {.motion = "sine", .duration_s = 4.0})}, axis);
+  const auto& law = hypothesis("floor_vibration");
+  Found found;
+  found.effect = {&law, {3.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 20.0}};
+  Fit fit = fitted.fitter.linearised({axis, {found.effect}}, fitted.whitening);
+  fit.covariance *= 1e-8;
+  const auto told = named_effect(found, fit, fit.covariance, fitted.model);
+  ASSERT_EQ(told.parameters.size(), 2U);
+  for (const auto& [name, estimate] : told.parameters) {
+    const double share = 0.5 * (estimate.high - estimate.low) / estimate.value;
+    if (name == "acceleration_m_per_s2")
+      EXPECT_NEAR(share, 1.645 * law.law_error, 1e-3);
+    else
+      EXPECT_LT(share, 1e-3) << name;
+  }
+}
+
 TEST(ChannelOf, AGainIsReadOffTheSensorThatHasIt) {
   const Hypothesis& gain = hypothesis("sensor_gain");
   EXPECT_EQ(channel_of({&gain, {0.1, 0.0, 0.0}}), "torque_sensor_Nm");

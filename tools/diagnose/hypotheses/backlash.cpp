@@ -55,6 +55,7 @@ Hypothesis backlash() {
           .admissible = possible,
           .sentence = "the table follows the motor with a play of {gap_m} m at every reversal",
 
+          .law_error = 0.045,
           .about_reversals = true,
           .confused_with = {"presliding_memory", "screw_compliance"},
           // from none the fit of one of 1 um on stiff flanks ended at 1.46 um and a third of what it explains

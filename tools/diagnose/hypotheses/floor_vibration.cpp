@@ -35,6 +35,7 @@ Hypothesis floor_vibration() {
           .named = named,
           .sentence = "the floor shakes the table with {acceleration_m_per_s2} m/s^2 at {frequency_Hz} Hz",
 
+          .law_error = 0.03,
           .confused_with = {"process_force"},
           .always_beside = "process_force",
           .far_from_beside = slower_than_teeth,

@@ -58,6 +58,7 @@ Hypothesis hard_stop() {
           .named = named,
           .admissible = possible,
           .sentence = "the table runs against something solid at {position_m} m, {stiffness_N_per_m} N/m stiff",
+          .law_error = 0.03,
           .about_reversals = true,
           .confused_with = {"local_friction", "cable_spring"},
           .shapes_for = ends_of,

@@ -64,6 +64,7 @@ Hypothesis hidden_friction_compensation() {
           .least_missed_nats = 5e4,
           .least_missed_nats_far_off = 6000.0,
           .most_missed_nats_asked = most_missed_nats_asked,
+          .law_error = 0.018,
           .confused_with = {"torque_gain_error", "torque_offset", "direction_dependent_friction"},
           .shapes_for = shapes_for,
           .friction = false};

@@ -126,6 +126,7 @@ Hypothesis process_force() {
           .admissible = possible,
           .sentence = "a process pushes the table with {amplitude_N} N at {frequency_Hz} Hz",
 
+          .law_error = 0.01,
           .confused_with = {"floor_vibration"},
           .always_beside = "floor_vibration",
           .far_from_beside = faster_than_a_floor,

@@ -38,6 +38,7 @@ Hypothesis quadratic_drag() {
           .law_of_speed = true,
           .follows_any_law = true,
           .least_deviations = deviations_of_numbers,
+          .law_error = 0.01,
           .confused_with = {"sublinear_viscous"},
           .friction = false};
 }

@@ -41,6 +41,7 @@ Hypothesis screw_compliance() {
           .admissible = possible,
           .sentence = "screw, nut and bearing yield: {stiffness_N_per_m} N/m between motor and table",
 
+          .law_error = 0.01,
           .finding = finding,
           .confused_with = {"backlash", "lead_error"},
           .friction = false};

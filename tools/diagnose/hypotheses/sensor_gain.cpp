@@ -64,6 +64,7 @@ Hypothesis sensor_gain() {
           .absorbed = true,
           .far_off_gain = 40.0,
           .least_deviations = deviations_of_numbers,
+          .law_error = 0.005,
           .only_readings = true,
           .reading = reading,
           .confused_with = {"torque_gain_error"},

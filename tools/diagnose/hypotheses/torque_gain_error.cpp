@@ -44,6 +44,7 @@ Hypothesis torque_gain_error() {
           .least_missed_nats = 500.0,  // true ones 3360 and more; where noise was named so, 156
           .least_missed_nats_far_off = 100.0,
           .least_deviations = deviations_of_numbers,
+          .law_error = 0.03,
           .confused_with = {"sensor_gain"},
           .closed_loop_starts = {{0.0}},
           .told_by_runs_nats = 500.0,
