@@ -148,7 +148,7 @@ class Diagnosing {
   }
 
   void polish_numbers() {
-    covariance_ = robust_covariance(model_, fit_);
+    covariance_ = covariance_by_what_is_left(model_, fit_);
     by_inverse_model_ = fit_;
     progress_("polishing the numbers by closed-loop simulation");
     if (!unknown_) take_polished(polish_settled(settled_, fit_.model, forward_, fitter_));
@@ -262,7 +262,8 @@ class Diagnosing {
 
   void tell_the_numbers_alone() {
     told_ = found_.recalibrated.model;
-    result_.recalibrated = recalibrated(fitter_, found_.recalibrated, robust_covariance(model_, found_.recalibrated));
+    result_.recalibrated =
+        recalibrated(fitter_, found_.recalibrated, covariance_by_what_is_left(model_, found_.recalibrated));
     if (result_.motor_presliding_m > 0.0) result_.motor_presliding_m = motor_presliding_m(told_.axis);
     show();
   }

@@ -68,6 +68,7 @@ bool of_one_event(const InverseModel& model, const Fit& fit, const Hypothesis& h
   constexpr double nearly_all = 0.999;  // of the squares
   const auto fold = folds_of(model, folds);
   Index column = fit.base_count();
+  bool has_a_size = false;
   for (const auto& effect : fit.model.effects)
     for (const auto& p : effect.hypothesis->parameters) {
       if (!fitted(p.kind)) continue;
@@ -75,11 +76,12 @@ bool of_one_event(const InverseModel& model, const Fit& fit, const Hypothesis& h
         std::vector<double> squares(folds, 0.0);
         for (Index k = 0; k < model.rows(); ++k)
           squares[fold[static_cast<std::size_t>(k)]] += std::pow(fit.jacobian(k, column), 2);
+        has_a_size = true;
         if (std::ranges::max(squares) < nearly_all * std::accumulate(squares.begin(), squares.end(), 0.0)) return false;
       }
       ++column;
     }
-  return true;
+  return has_a_size;
 }
 
 double prior_part(const Fit& fit) {
@@ -197,8 +199,11 @@ Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit) {
       (steps.colwise() - centre).rowwise().squaredNorm() * (static_cast<double>(groups - 1) / static_cast<double>(groups));
   const Vector widening =
       variance.cwiseQuotient(fit.covariance.diagonal().cwiseMax(1e-300)).cwiseMax(1.0).cwiseMin(widest * widest).cwiseSqrt();
-  const double left_over = std::max(1.0, fit.cost / static_cast<double>(model.rows()));
-  return left_over * widening.asDiagonal() * fit.covariance * widening.asDiagonal();
+  return widening.asDiagonal() * fit.covariance * widening.asDiagonal();
+}
+
+Eigen::MatrixXd covariance_by_what_is_left(const InverseModel& model, const Fit& fit) {
+  return std::max(1.0, fit.cost / static_cast<double>(model.rows())) * robust_covariance(model, fit);
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -49,7 +49,9 @@ struct Unseen {
 [[nodiscard]] bool hidden_beside(double largest_beside, const Verdict& verdict, const Unseen& unseen, const Bar& bar);
 
 /// Covariance of the unknowns, widened to what a delete-a-group jackknife over seconds finds: the laws are not exact and
-/// the noise is not of one colour, so that rows say less than they seem to; and by what is left over beyond one a row.
+/// the noise is not of one colour, so that rows say less than they seem to.
 [[nodiscard]] Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit);
+/// And by what is left over beyond one a row.
+[[nodiscard]] Eigen::MatrixXd covariance_by_what_is_left(const InverseModel& model, const Fit& fit);
 
 }  // namespace feedtwin::tools::diagnosis
