@@ -53,8 +53,10 @@ Asking::Asking(const Fitter& fitter, const Fit& fit, const Whitening& whitening)
       whitening_(whitening),
       q_(orthonormal(fit.jacobian)),
       left_(fit.white - q_ * (q_.transpose() * fit.white)),
-      standing_(model_.standing(fit.model.axis, model_.prepared(fit.model.axis, fit.model.effects,
-                                                                model_.contacts(fit.model.axis, fit.model.effects)))),
+      standing_(model_.standing(
+          fit.model.axis,
+          model_.prepared(fit.model.axis, fit.model.effects, model_.contacts(fit.model.axis, fit.model.effects)),
+          fit.residual)),
       blocks_(blocks_of(model_)),
       signs_(random_signs(blocks_.size())) {}
 

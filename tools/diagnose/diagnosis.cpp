@@ -236,8 +236,8 @@ class Diagnosing {
     forward_.learn_meter_noise(with_phases_of(told_, result_.updated));
     ForwardModel simulated(unseen, data_);
     simulated.take_meter_from(forward_);
-    const Candidate given{data_.axis, {}};
     const Candidate& recalibrated_only = found_.recalibrated.model;
+    const Candidate given{data_.axis, {}};
     const AxisByRun updated_unseen = with_phases_of(told_unseen, result_.updated);
     const auto as_given = followed(held_out, given), as_recalibrated = followed(held_out, recalibrated_only),
                as_told = followed(held_out, told_unseen);

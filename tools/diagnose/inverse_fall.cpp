@@ -49,9 +49,8 @@ void InverseModel::add_fall(std::size_t run, const Modelled& from, const Modelle
   }
 }
 
-InverseModel::Standing InverseModel::standing(const plant::AxisParameters& axis, Prepared model) const {
-  Standing at{axis, std::move(model), {}, std::vector<Vector>(segments_.size())};
-  at.residual = residual(axis, at.model, Rows::weighted);
+InverseModel::Standing InverseModel::standing(const plant::AxisParameters& axis, Prepared model, Vector residual) const {
+  Standing at{axis, std::move(model), std::move(residual), std::vector<Vector>(segments_.size())};
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const auto& [equation, run, start, size] = segments_[i];
     if (equations_[equation].motor && size > 0)

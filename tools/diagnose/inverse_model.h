@@ -91,7 +91,8 @@ class InverseModel {
     Vector residual;                ///< weighted
     std::vector<Vector> balance_N;  ///< by segment, of the motor's equations: before its friction at rest takes its share
   };
-  [[nodiscard]] Standing standing(const plant::AxisParameters& axis, Prepared model) const;
+  /// @param residual of that model, weighted
+  [[nodiscard]] Standing standing(const plant::AxisParameters& axis, Prepared model, Vector residual) const;
   /// Fall of the residual when one more effect that does not change friction joins. Only what it touches is computed.
   [[nodiscard]] Vector fall(const Standing& at, const Active& more) const;
   /// What a model says along one run.

@@ -85,7 +85,7 @@ double rms_of(const std::vector<double>& values) {
 ReadingStructure structure_of_reading(const ReadingRows& rows, const Vector& residual, double newton) {
   ReadingStructure found;
   found.channel = rows.channel;
-  if (rows.of_force) found.per_N = rows.per_unit, found.newton = newton;
+  if (rows.of_force) found.per_newton = rows.per_unit * newton;
   if (rows.channel != channel::scale_position_m) found.read = rows.per_unit * rms_of(rows.reading);
   const Vector shown_behind = residual(rows.after), after = without_numbers(shown_behind, rows.numbers);
   Vector before = Vector::Zero(after.size()), y = after, shown = shown_behind;
@@ -128,7 +128,7 @@ bool ReadingStructure::stands_out() const {
   const bool by_itself = follows == Follows::reading_by_step || follows == Follows::time || by_rest;
   const bool power_by_clock = channel == channel::power_W && (follows == Follows::time || by_rest);
   return share > (power_by_clock ? least_by_clock : least) && of_reading > least_of_reading &&
-         (per_N == 0.0 || structured() > least_N * newton * per_N) && (by_itself || structured() > least_of_read * read);
+         (per_newton == 0.0 || structured() > least_N * per_newton) && (by_itself || structured() > least_of_read * read);
 }
 
 std::vector<ReadingStructure> structure_of_readings(const InverseModel& model, const Candidate& at) {

@@ -21,10 +21,9 @@ struct ReadingStructure {
   double remainder = 0.0;  ///< rms of the misfit less what numbers could take up, in the channel's unit
   double share = 0.0;      ///< of its square that is predicted on seconds that were not learned from; may be negative
   double every = 0.0;      ///< where it comes over and over: the time, s, or the step of what is read, in the channel's unit
-  double newton = 1.0;     ///< what stands for one on this axis (size_of_axis.h)
-  double per_N = 0.0;      ///< the channel's unit in a newton at the table; 0: it is none of force
-  double read = 0.0;       ///< rms of what is read, in the channel's unit; 0: that is of another unit
-  double of_reading = 1.0;              ///< how much of what is predicted both equations have, turned round; 1: all
+  double per_newton = 0.0;  ///< the channel's unit in what stands for a newton (size_of_axis.h); 0: it is none of force
+  double read = 0.0;        ///< rms of what is read, in the channel's unit; 0: that is of another unit
+  double of_reading = 1.0;  ///< how much of what is predicted both equations have, turned round; 1: all
   std::optional<LearnedReading> table;  ///< that the plant can run, where it stands out and one is of use
   bool in_plant = false;                ///< the updated axis has it
   [[nodiscard]] double structured() const;

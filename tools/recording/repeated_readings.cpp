@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "tools/recording/power_meter.h"
@@ -34,13 +35,16 @@ std::size_t readings_of_one_window(std::span<const Recording> recordings) {
   constexpr std::size_t most = 10, least_windows = 8;
   // of the steps from window to window: of 700 cases whose meter shows each window once the least was 0.06
   constexpr double nearly_none = 0.005;
+  std::vector<std::pair<std::span<const double>, MeteredPower>> meters;
+  for (const auto& recording : recordings) {
+    const auto power_W = recording.at(channel::power_W);
+    MeteredPower meter = metered_rows(power_W);
+    if (meter.window > 1) meters.emplace_back(power_W, std::move(meter));
+  }
   for (std::size_t readings = most; readings > 1; --readings) {
     Steps all;
     std::size_t windows = 0;
-    for (const auto& recording : recordings) {
-      const auto power_W = recording.at(channel::power_W);
-      const MeteredPower meter = metered_rows(power_W);
-      if (meter.window <= 1) continue;
+    for (const auto& [power_W, meter] : meters) {
       const Steps steps = steps_of(power_W, meter.rows, readings);
       all.within += steps.within, all.across += steps.across;
       windows += meter.rows.size() / readings;

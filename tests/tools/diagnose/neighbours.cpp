@@ -94,8 +94,8 @@ TEST_P(NeighboursOfRandomModels, FallAsTheWholeResidualDoes) {
 
 TEST_P(NeighboursOfRandomModels, OneMoreEffectFallsAsTheWholeResidualDoes) {
   const auto contacts = model_.contacts(at_.axis, at_.effects);
-  const auto standing = model_.standing(at_.axis, model_.prepared(at_.axis, at_.effects, contacts));
   const Vector here = model_.residual(at_.axis, at_.effects, contacts);
+  const auto standing = model_.standing(at_.axis, model_.prepared(at_.axis, at_.effects, contacts), here);
   int asked = 0;
   for (const auto& hypothesis : hypotheses()) {
     if (hypothesis.friction || !gives_forces(hypothesis)) continue;
