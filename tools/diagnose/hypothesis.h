@@ -171,6 +171,8 @@ struct Hypothesis {
   std::vector<double> reaches = {1.0};
   /// Where else a refit starts from, beside zero: for laws with kinks that no step crosses.
   std::vector<std::vector<double>> starts = {};
+  /// Where it starts from again, by what the refits ended with.
+  std::vector<std::vector<double>> (*starts_after)(std::span<const double> q) = nullptr;
   /// Of what the inverse model can say little about: where the closed loop starts from, each start a question of its own
   /// whatever the inverse model welcomes. Its own size is preferred where it finds a possible one and the numbers leave it.
   std::vector<std::vector<double>> closed_loop_starts = {};

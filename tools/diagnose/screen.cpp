@@ -153,13 +153,16 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
   const auto allowed = [place](const Fit& fit) { return possible(fit.model.effects[place], fit.model.axis); };
   auto starts = more.hypothesis->starts;
   if (more.hypothesis->jumps || more.hypothesis->reaches.size() > 1) starts.push_back(more.q);
-  for (const auto& q : starts) {
-    if (q == at_zero(more).q) continue;
+  const auto try_from = [&](const std::vector<double>& q) {
+    if (q == at_zero(more).q) return;
     start.effects[place].q = q;
     const Fit other = fitter.fit(start, whitening, first_look);
     const bool better = allowed(other) == allowed(best) ? other.cost < best.cost - clearly : allowed(other);
     if (better) best = fitter.fit(other.model, whitening, iterations);
-  }
+  };
+  for (const auto& q : starts) try_from(q);
+  if (more.hypothesis->starts_after == nullptr) return best;
+  for (const auto& q : more.hypothesis->starts_after(best.model.effects[place].q)) try_from(q);
   return best;
 }
 

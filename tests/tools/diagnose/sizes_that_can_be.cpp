@@ -96,6 +96,14 @@ TEST(HardStop, MayBeABufferButNoSpringOfTheWholeTravel) {
   EXPECT_FALSE(can_be(200.0));
 }
 
+TEST(HardStop, MayShowByItsBlowAlone) {
+  const auto stop = [](double stiffness_N_per_m, double damping_Ns_per_m) {
+    return Active{&hypothesis("hard_stop"), {stiffness_N_per_m, damping_Ns_per_m, 0.15, 1.0}};
+  };
+  EXPECT_TRUE(possible(stop(0.0, 1e4), plant::source_axis()));
+  EXPECT_FALSE(possible(stop(0.0, 3600.0), plant::source_axis()));
+}
+
 TEST(CopperLoss, IsSmallWhereTheMotorIsLarge) {
   EXPECT_TRUE(possible({&hypothesis("copper_loss"), {0.06}}, plant::source_axis()));
   EXPECT_FALSE(possible({&hypothesis("copper_loss"), {0.0}}, plant::source_axis()));

@@ -25,7 +25,19 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 }
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 300.0;  // softer is a spring
+  constexpr double softest_N_per_m = 300.0;      // softer is a spring
+  constexpr double hardest_blow_Ns_per_m = 5e3;  // the blow alone may show: nothing yields before it like this
+  return q[0] > softest_N_per_m || q[1] > hardest_blow_Ns_per_m;
+}
+
+/// Where the blow alone is left, what struck may stand further in: met before, where the fit had not looked.
+std::vector<std::vector<double>> further_in(std::span<const double> q) {
+  constexpr double damped_over_s = 0.05;
+  std::vector<std::vector<double>> starts;
+  if (q[0] > 1.0) return starts;
+  for (const double deeper_m : {1e-4, 2e-4, 4e-4})
+    starts.push_back({0.5 * q[1] / damped_over_s, 0.5 * q[1], q[2] - q[3] * deeper_m, q[3]});
+  return starts;
 }
 
 /// Only the ends of the travel can have met something; what is soft, a fifth of it deep.
@@ -62,6 +74,7 @@ Hypothesis hard_stop() {
           .about_reversals = true,
           .confused_with = {"local_friction", "cable_spring"},
           .shapes_for = ends_of,
+          .starts_after = further_in,
           .jumps = true,  // it is met a sample earlier or later, at full speed
           .friction = false};
 }
