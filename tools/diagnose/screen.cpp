@@ -145,7 +145,7 @@ Active at_zero(const Score& score) {
 
 Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, std::size_t place, const Whitening& whitening,
              int iterations) {
-  constexpr int first_look = 2;
+  constexpr int first_look = 2, most_rounds = 4;
   constexpr double clearly = 10.0;  // of the cost
   Candidate start = model;
   start.effects.insert(start.effects.begin() + static_cast<std::ptrdiff_t>(place), at_zero(more));
@@ -154,15 +154,19 @@ Fit fit_with(const Fitter& fitter, const Candidate& model, const Score& more, st
   auto starts = more.hypothesis->starts;
   if (more.hypothesis->jumps || more.hypothesis->reaches.size() > 1) starts.push_back(more.q);
   const auto try_from = [&](const std::vector<double>& q) {
-    if (q == at_zero(more).q) return;
+    if (q == at_zero(more).q) return false;
     start.effects[place].q = q;
     const Fit other = fitter.fit(start, whitening, first_look);
     const bool better = allowed(other) == allowed(best) ? other.cost < best.cost - clearly : allowed(other);
     if (better) best = fitter.fit(other.model, whitening, iterations);
+    return better;
   };
   for (const auto& q : starts) try_from(q);
-  if (more.hypothesis->starts_after == nullptr) return best;
-  for (const auto& q : more.hypothesis->starts_after(best.model.effects[place].q)) try_from(q);
+  bool better = more.hypothesis->starts_after != nullptr;
+  for (int round = 0; better && round < most_rounds; ++round) {
+    better = false;
+    for (const auto& q : more.hypothesis->starts_after(best.model.effects[place].q)) better |= try_from(q);
+  }
   return best;
 }
 

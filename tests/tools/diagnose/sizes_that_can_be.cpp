@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "plant/parameter_table.h"
@@ -83,6 +84,9 @@ TEST(PreslidingMemory, IsToldFromABristleThatAloneHoldsIt) {
   fit.model.effects = {{&hypothesis("presliding_memory"), {0.6, 7e-6}}};
   EXPECT_FALSE(told(0.1, 0.004)) << "the law was there to take it, and did not";
   fit.model.effects.clear();
+  const auto guides_N = std::exchange(fit.model.axis.guide.coulomb_N, {file_N_per_m * 2e-5, file_N_per_m * 2e-5});
+  EXPECT_FALSE(told(0.1, 0.004)) << "a twentieth of the friction: who knows its bristle";
+  fit.model.axis.guide.coulomb_N = guides_N;
   fit.model.axis.ball_screw.coulomb_N = {file_N_per_m * 4e-7, file_N_per_m * 4e-7};
   EXPECT_FALSE(told(0.1, 0.004)) << "over 4 um a bristle of a tenth yields too";
 }

@@ -27,6 +27,16 @@ TEST(Telling, WhatNumbersTakeUpNeedsMoreThanAChannelThatComesCloser) {
   EXPECT_EQ(telling_of(hypothesis("quadratic_drag"), answered(184.0, 3.7, -2.0, 3.07, 0.69)), Telling::by_channel);
 }
 
+TEST(Telling, WhatNumbersTakeUpInMostStretchesMayShowInAFew) {
+  const auto& offset = hypothesis("torque_offset");
+  EXPECT_EQ(telling_of(offset, answered(258.0, 2.7, 16.0, 4.03, 0.86)), Telling::by_channel);
+  EXPECT_EQ(telling_of(offset, answered(258.0, 2.7, 5.0, 4.03, 0.86)), Telling::nothing);
+  EXPECT_EQ(telling_of(offset, answered(258.0, 2.7, 16.0, 2.5, 0.86)), Telling::nothing);
+  EXPECT_EQ(telling_of(offset, answered(258.0, 2.7, 16.0, 4.03, 0.7)), Telling::nothing);
+  EXPECT_EQ(telling_of(offset, answered(258.0, 1.5, 16.0, 4.03, 0.86)), Telling::nothing);
+  EXPECT_EQ(telling_of(offset, answered(150.0, 2.7, 16.0, 4.03, 0.86)), Telling::nothing);
+}
+
 TEST(Telling, NumbersThatComeFarNearerToTheFileTellBesideAChannelInDoubt) {
   const auto& gain = hypothesis("torque_gain_error");
   const auto answer = [](double nearer, double deviations, double ratio) {

@@ -30,13 +30,15 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > softest_N_per_m || q[1] > hardest_blow_Ns_per_m;
 }
 
-/// Where the blow alone is left, what struck may stand further in: met before, where the fit had not looked.
-std::vector<std::vector<double>> further_in(std::span<const double> q) {
+/// What was struck may stand where no step leads from where the fit looked first: the blow itself lies in between.
+std::vector<std::vector<double>> beside(std::span<const double> q) {
   constexpr double damped_over_s = 0.05;
+  const bool blow_alone = q[0] < 1.0;
+  const double stiffness_N_per_m = blow_alone ? 0.5 * q[1] / damped_over_s : q[0];
+  const double damping_Ns_per_m = blow_alone ? 0.5 * q[1] : q[1];
   std::vector<std::vector<double>> starts;
-  if (q[0] > 1.0) return starts;
-  for (const double deeper_m : {1e-4, 2e-4, 4e-4})
-    starts.push_back({0.5 * q[1] / damped_over_s, 0.5 * q[1], q[2] - q[3] * deeper_m, q[3]});
+  for (const double further_m : {-4e-4, -2e-4, -1e-4, 1e-4, 2e-4, 4e-4})
+    starts.push_back({stiffness_N_per_m, damping_Ns_per_m, q[2] + q[3] * further_m, q[3]});
   return starts;
 }
 
@@ -74,7 +76,7 @@ Hypothesis hard_stop() {
           .about_reversals = true,
           .confused_with = {"local_friction", "cable_spring"},
           .shapes_for = ends_of,
-          .starts_after = further_in,
+          .starts_after = beside,
           .jumps = true,  // it is met a sample earlier or later, at full speed
           .friction = false};
 }
