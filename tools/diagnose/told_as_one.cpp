@@ -49,6 +49,20 @@ void tell_as_one_wave(Diagnosis& result) {
     }
 }
 
+void tell_as_one_cogging(Diagnosis& result) {
+  constexpr double off_order = 1e-3, off_phase_rad = 0.25, most_share = 0.4;
+  const auto cogging = place_of(result, "cogging"), ripple = place_of(result, "torque_ripple");
+  if (cogging == result.effects.end() || ripple == result.effects.end()) return;
+  const auto apart = [&](std::string_view name) { return value_of(*cogging, name) - value_of(*ripple, name); };
+  const bool a_quarter_away = std::abs(std::cos(apart("phase_rad"))) < std::sin(off_phase_rad);
+  if (std::abs(apart("cycles_per_rev")) > off_order || !a_quarter_away || ripple->share > most_share * cogging->share)
+    return;
+  cogging->sentence +=
+      " It comes later the harder the motor pulls, as what yields between shaft and encoder lets it: in the updated axis as "
+      "torque_ripple.";
+  result.effects.erase(ripple);
+}
+
 void tell_as_one_change(Diagnosis& result) {
   for (const auto& [first, second] :
        {std::pair{"thermal_friction", "thermal_friction_of_all"}, std::pair{"thermal_friction", "friction_drift"},
@@ -90,6 +104,7 @@ void tell_as_one_growth(Diagnosis& result, double run_s) {
 void tell_as_one(Diagnosis& result, double run_s) {
   tell_as_one_lead(result);
   tell_as_one_wave(result);
+  tell_as_one_cogging(result);
   tell_as_one_change(result);
   tell_as_one_friction_along(result);
   tell_as_one_growth(result, run_s);

@@ -10,6 +10,9 @@ void tell_as_one_lead(Diagnosis& result);
 /// What wavers with the shaft and is no pure sine: its second or third harmonic found another name, that it is confused
 /// with.
 void tell_as_one_wave(Diagnosis& result);
+/// Cogging seen from where the shaft is not: what yields between them turns further the harder the motor pulls, so that a
+/// ripple of cogging's own order stands beside it, a quarter of a period away.
+void tell_as_one_cogging(Diagnosis& result);
 /// Friction that changes as the screw warms and as time goes by, or lags behind speed and behind velocity: of the two the
 /// one that explains more.
 void tell_as_one_change(Diagnosis& result);

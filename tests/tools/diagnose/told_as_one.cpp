@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tests/tools/diagnose/named_effect.h"
 #include "tools/diagnose/diagnosis_json.h"
@@ -30,6 +31,24 @@ TEST(TellAsOneLead, WhatIsLeftOfAMendedLeadsErrorIsNoSecondFinding) {
   ASSERT_EQ(result.effects.size(), 1U);
   EXPECT_EQ(result.effects.front().hypothesis->id, "cogging");
   EXPECT_DOUBLE_EQ(result.setup.front().parameters.front().value, 2.0 * (1.0 + 3e-6));
+}
+
+TEST(TellAsOneCogging, WhatYieldsShowsItLaterUnderLoadAndThatIsNoRipple) {
+  const auto told = [](double ripple_order, double ripple_phase_rad, double ripple_share) {
+    Diagnosis result;
+    result.effects = {named("cogging", "cycles_per_rev", 10.0), named("torque_ripple", "cycles_per_rev", ripple_order)};
+    result.effects.front().parameters.push_back({"phase_rad", {-0.44, -0.46, -0.42}});
+    result.effects.back().parameters.push_back({"phase_rad", {ripple_phase_rad, -2.1, -1.9}});
+    result.effects.front().share = 0.9;
+    result.effects.back().share = ripple_share;
+    tell_as_one_cogging(result);
+    return result.effects.size();
+  };
+  EXPECT_EQ(told(10.0, -1.99, 0.24), 1U);
+  EXPECT_EQ(told(10.0, -1.99 + std::numbers::pi, 0.24), 1U) << "it may yield the other way round";
+  EXPECT_EQ(told(12.0, -1.99, 0.24), 2U);
+  EXPECT_EQ(told(10.0, -1.0, 0.24), 2U) << "not a quarter of a period away";
+  EXPECT_EQ(told(10.0, -1.99, 0.6), 2U);
 }
 
 TEST(TellAsOneFrictionAlong, ASlopeAndAWaveAreOneFindingWithTheNumbersOfBoth) {

@@ -65,7 +65,7 @@ class Asked {
       progress_(
           fmt::format("closed loop, all numbers free, without {}: {:+.0f} nats, numbers {:+.0f} squared tolerances farther "
                       "from nominal",
-                      hypothesis->id, -named->missed_nats, farther));
+                      in_words(now, settled.model.axis), -named->missed_nats, farther));
       double short_of_nats = cannot_be ? 1e300 : nats_to_stay(*named, farther) - named->missed_nats;
       if (short_of_nats > 0.0 && !cannot_be && named->missed_nats > found_by_both && structure_comes_back(fit, rest.fit)) {
         progress_(fmt::format("closed loop: without {} structure comes back that no other name has", hypothesis->id));
