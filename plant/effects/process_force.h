@@ -10,7 +10,9 @@
 // Or all of it opposes the motion, teeth and mean alike, as where a tool cuts both ways through a workpiece that lies
 // somewhere along the travel:
 //
-//   F = (R + A sin(2 pi f t + phase)) tanh(v / 0.5 mm/s)   from from_m to to_m, otherwise none
+//   F = (R + A sin(2 pi f t + phase)) s (1 + d s) / 2,   s = tanh(v / 0.5 mm/s),   from from_m to to_m, otherwise none
+//
+// d = only_direction: 1 or -1 where it cuts that way alone and goes back in the air; both ways, 0, the factor is s.
 
 #include <algorithm>
 #include <array>
@@ -59,6 +61,11 @@ class ProcessForce final : public Effect {
   TimeWave teeth_;
 };
 
+/// Of what opposes the motion where s is its sign, which turns round smoothly: all of it both ways, or in one direction.
+[[nodiscard]] inline double cutting(double s, double only_direction) noexcept {
+  return only_direction == 0.0 ? s : 0.5 * s * (1.0 + only_direction * s);
+}
+
 /// Part of a tool that is in a workpiece from one place to another: it comes in and goes out over a path of 0.2 mm.
 [[nodiscard]] inline double share_in_workpiece(double position_m, double from_m, double to_m) noexcept {
   constexpr double over_m = 2e-4;
@@ -71,16 +78,19 @@ class ProcessForceAgainstMotion final : public Effect {
       : opposing_N_(setting.values[0]),
         from_m_(setting.values[4]),
         to_m_(setting.values[5]),
+        only_direction_(std::round(setting.values[6])),
         teeth_(setting.values[1], setting.values[2], setting.values[3]) {}
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
     const double middle_m = m.position_m + 0.5 * m.h_s * m.velocity_m_per_s;
     const double now_N = share_in_workpiece(middle_m, from_m_, to_m_) * (opposing_N_ + teeth_.mean_N(m));
     const double against = std::tanh(m.velocity_m_per_s / process_turns_m_per_s);
-    return {now_N * against, std::max(0.0, now_N) / process_turns_m_per_s * (1.0 - against * against)};
+    const double by_sign = only_direction_ == 0.0 ? 1.0 : std::max(0.0, 0.5 + only_direction_ * against);
+    return {now_N * cutting(against, only_direction_),
+            by_sign * std::max(0.0, now_N) / process_turns_m_per_s * (1.0 - against * against)};
   }
 
  private:
-  double opposing_N_, from_m_, to_m_;
+  double opposing_N_, from_m_, to_m_, only_direction_;
   TimeWave teeth_;
 };
 
@@ -104,6 +114,7 @@ inline constexpr std::array process_force_against_motion_parameters{
     EffectParameter{"phase_rad", "rad", -6.283185307179586, 6.283185307179586, 0.0, {}, "at the start of the run"},
     EffectParameter{"from_m", "m", -1e3, 1e3, -1e3, {}, "table position from which on the tool is in the workpiece"},
     EffectParameter{"to_m", "m", -1e3, 1e3, 1e3, {}, "and up to which it is"},
+    EffectParameter{"only_direction", "1", -1.0, 1.0, 0.0, {}, "1, -1: cuts that way alone; 0: both ways"},
 };
 // clang-format on
 

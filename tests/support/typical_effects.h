@@ -43,7 +43,7 @@ inline plant::EffectSetting typical_effect(const plant::EffectEntry& entry) {
       {"power_meter_window", {0.05, 1.0}},
       {"presliding_memory", {15.0, 1e-5}},
       {"process_force", {20.0, 10.0, 150.0, 0.0, 0.05, 1e9, 5.0, 0.02}},
-      {"process_force_against_motion", {20.0, 10.0, 150.0, 0.0, -0.02, 0.03}},
+      {"process_force_against_motion", {20.0, 10.0, 150.0, 0.0, -0.02, 0.03, 0.0}},
       {"quadratic_drag", {800.0}},
       {"regeneration_clipped", {1.0}},
       {"rev_ripple", {4.0, 2.0, 0.1}},

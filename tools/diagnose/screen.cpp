@@ -81,7 +81,7 @@ void add_places(std::vector<std::vector<double>>& kept, const InverseModel& mode
     seen_Hz.push_back(shape[0]);
     const double frequency_Hz = strongest_near(model, lines_in, shape[0]);
     if (const auto place = place_of_line(model, lines_in, frequency_Hz))
-      added.push_back({frequency_Hz, place->first, place->second});
+      added.push_back({frequency_Hz, place->from_m, place->to_m, place->only_direction});
   }
   kept.insert(kept.end(), added.begin(), added.end());
 }

@@ -46,12 +46,13 @@ Vector slow_part(const Vector& rows) {
   return slow;
 }
 
-UpTo up_to_places(const InverseModel& model, const Segment& s, const Vector& rows, double frequency_Hz,
-                  const Travel& travel) {
+UpTo up_to_places(const InverseModel& model, const Segment& s, const Vector& rows, double frequency_Hz, const Travel& travel,
+                  double only_direction) {
   const Track& track = model.tracks()[s.run];
   const double per_row = 2.0 * std::numbers::pi * frequency_Hz * track.row_s();
   UpTo up;
   for (Index k = 0; k < s.size; ++k) {
+    if (only_direction * track.centred_m_per_s[model.sample_of(s, k)] < 0.0) continue;
     const std::size_t place = place_at(travel, track.table_position_m[model.sample_of(s, k)]) + 1;
     up.sum[place] += rows[s.start + k] * std::polar(1.0, per_row * static_cast<double>(k));
     up.rows[place] += 1.0;
@@ -74,25 +75,29 @@ Vector turned(const InverseModel& model, const Vector& rows) {
   return out;
 }
 
-std::optional<std::pair<double, double>> place_of_line(const InverseModel& model, const Vector& rows, double frequency_Hz) {
+std::optional<Workpiece> place_of_line(const InverseModel& model, const Vector& rows, double frequency_Hz) {
   // what the best of ten thousand pairs of places gains by chance, and what a model's mistakes about reversals bring
   constexpr double by_chance = 10.0, times_as_much = 1.1;
   constexpr std::size_t least_places = places / 8, most_places = 17 * places / 20;
   const Travel travel = travel_of(model.tracks(), &Track::table_position_m);
-  std::vector<UpTo> all;
-  for (const auto& s : model.segments())
-    if (model.equations()[s.equation].guide && s.size > 0) all.push_back(up_to_places(model, s, rows, frequency_Hz, travel));
-  const auto power = [&](std::size_t from, std::size_t to) {
-    double sum = 0.0;
-    for (const auto& up : all) sum += up.power(from, to);
-    return sum;
-  };
-  double most = times_as_much * power(0, places) + by_chance;
-  std::optional<std::pair<double, double>> best;
-  for (std::size_t from = 0; from + least_places <= places; ++from)
-    for (std::size_t to = from + least_places; to <= std::min(places, from + most_places); ++to)
-      if (const double now = power(from, to); now > most)
-        most = now, best = {position_m(travel, from), position_m(travel, to)};
+  std::optional<Workpiece> best;
+  double most = 0.0;
+  for (const double only_direction : {0.0, 1.0, -1.0}) {
+    std::vector<UpTo> all;
+    for (const auto& s : model.segments())
+      if (model.equations()[s.equation].guide && s.size > 0)
+        all.push_back(up_to_places(model, s, rows, frequency_Hz, travel, only_direction));
+    const auto power = [&](std::size_t from, std::size_t to) {
+      double sum = 0.0;
+      for (const auto& up : all) sum += up.power(from, to);
+      return sum;
+    };
+    most = std::max(most, times_as_much * power(0, places) + by_chance);
+    for (std::size_t from = 0; from + least_places <= places; ++from)
+      for (std::size_t to = from + least_places; to <= std::min(places, from + most_places); ++to)
+        if (const double now = power(from, to); now > most)
+          most = now, best = {position_m(travel, from), position_m(travel, to), only_direction};
+  }
   return best;
 }
 

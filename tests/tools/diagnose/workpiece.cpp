@@ -20,13 +20,14 @@ using namespace tools::diagnosis;
 
 constexpr double tooth_Hz = 34.4;
 
-std::vector<tools::Recording> runs_with(double tooth_N, double from_m, double to_m) {
+std::vector<tools::Recording> runs_with(double tooth_N, double from_m, double to_m, double only_direction = 0.0) {
   auto axis = plant::source_axis();
   axis.effects.push_back(tests::effect("process_force_against_motion", {{"opposing_N", 1.2 * tooth_N},
                                                                         {"amplitude_N", tooth_N},
                                                                         {"frequency_Hz", tooth_Hz},
                                                                         {"from_m", from_m},
-                                                                        {"to_m", to_m}}));
+                                                                        {"to_m", to_m},
+                                                                        {"only_direction", only_direction}}));
   std::vector<tools::Recording> runs;
   for (const double speed_m_per_s : {0.03, 0.05})
     runs.push_back(tests::make_recording(
@@ -43,8 +44,9 @@ TEST(Workpiece, IsFoundWithItsPlaceAndTheForceInIt) {
   const tests::FittedRuns made(runs_with(4.0, -0.005, 0.008), nominal);
   const auto place = place_of_line(made.model, turned(made.model, made.fit.white), tooth_Hz);
   ASSERT_TRUE(place.has_value());
-  EXPECT_NEAR(place->first, -0.005, 1e-3);
-  EXPECT_NEAR(place->second, 0.008, 1e-3);
+  EXPECT_NEAR(place->from_m, -0.005, 1e-3);
+  EXPECT_NEAR(place->to_m, 0.008, 1e-3);
+  EXPECT_EQ(place->only_direction, 0.0);
   const auto screened = screen(made.fitter, made.fit, made.whitening);
   const Fit fit = fit_with(made.fitter, made.fit.model, score_of(screened), 0, made.whitening, 8);
   const Active& process = fit.model.effects.front();
@@ -58,6 +60,25 @@ TEST(Workpiece, IsFoundWithItsPlaceAndTheForceInIt) {
   const auto told = named_effect(found, fit, robust_covariance(made.model, fit), made.model);
   for (const auto& [name, estimate] : told.parameters)
     EXPECT_LT(estimate.low, estimate.high) << name << ": with two runs of four too";
+}
+
+TEST(Workpiece, MayBeCutOneWayAlone) {
+  for (const double only_direction : {1.0, -1.0}) {
+    const tests::FittedRuns made(runs_with(4.0, -0.005, 0.008, only_direction), plant::source_axis());
+    const auto place = place_of_line(made.model, turned(made.model, made.fit.white), tooth_Hz);
+    ASSERT_TRUE(place.has_value());
+    EXPECT_EQ(place->only_direction, only_direction);
+    EXPECT_NEAR(place->from_m, -0.005, 1e-3);
+    EXPECT_NEAR(place->to_m, 0.008, 1e-3);
+    const auto screened = screen(made.fitter, made.fit, made.whitening);
+    const Fit fit = fit_with(made.fitter, made.fit.model, score_of(screened), 0, made.whitening, 8);
+    const Active& process = fit.model.effects.front();
+    const auto named = process.hypothesis->named(process.q, plant::source_axis());
+    EXPECT_NEAR(named[0].value, 4.8, 1.0) << "friction by direction takes some of it";
+    EXPECT_NEAR(named[1].value, 4.0, 0.6);
+    EXPECT_EQ(named.back().name, "only_direction");
+    EXPECT_EQ(named.back().value, only_direction);
+  }
 }
 
 TEST(Workpiece, AlongTheWholeTravelIsNoPlace) {

@@ -28,7 +28,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   add(sum.guide_N, force_N.cwiseProduct(covered(cuts, q[ramp], track.size, track.sample_s)));
 }
 
-constexpr std::size_t own_opposing = 2 * line_runs + 1, from = own_opposing + 1, to = from + 1;
+constexpr std::size_t own_opposing = 2 * line_runs + 1, from = own_opposing + 1, to = from + 1, only_direction = to + 1;
 
 /// Otherwise it acts along all of the travel.
 bool has_place(std::span<const double> q) {
@@ -40,18 +40,22 @@ void apply_against_motion(const View& view, std::span<const double> q, Contribut
   Vector force_N = Vector::Constant(track.size, q[own_opposing]);
   add_line(track, q, force_N);
   const bool somewhere = has_place(q);
-  for (Index k = 0; k < track.size; ++k)
+  for (Index k = 0; k < track.size; ++k) {
+    const double sign = std::tanh(track.centred_m_per_s[k] / plant::effects::process_turns_m_per_s);
     force_N[k] *= (somewhere ? plant::effects::share_in_workpiece(track.table_position_m[k], q[from], q[to]) : 1.0) *
-                  std::tanh(track.centred_m_per_s[k] / plant::effects::process_turns_m_per_s);
+                  plant::effects::cutting(sign, q[only_direction]);
+  }
   add(sum.guide_N, force_N);
 }
 
 std::vector<NamedValue> named_against_motion(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return {{"opposing_N", q[own_opposing]},
-          {"amplitude_N", line_amplitude(q)},
-          {"frequency_Hz", rate_of_line(q)},
-          {"from_m", q[from]},
-          {"to_m", q[to]}};
+  std::vector<NamedValue> values{{"opposing_N", q[own_opposing]},
+                                 {"amplitude_N", line_amplitude(q)},
+                                 {"frequency_Hz", rate_of_line(q)},
+                                 {"from_m", q[from]},
+                                 {"to_m", q[to]}};
+  if (q[only_direction] != 0.0) values.push_back({"only_direction", q[only_direction]});
+  return values;
 }
 
 /// Along all of the travel a line that turns with the motion is the drive's: a real one's rectifier hums at 100 Hz with the
@@ -95,13 +99,14 @@ std::vector<WorkingParameter> parameters_against_motion() {
   all.push_back({"opposing_N", Kind::amplitude, 0.1, 0.0, 1e5});
   all.push_back({"from_m", Kind::shape, 2e-4});
   all.push_back({"to_m", Kind::shape, 2e-4});
+  all.push_back({"only_direction", Kind::fixed});
   return all;
 }
 
 /// Along all of the travel; the screen adds, to the strongest, from where to where they act.
 Grid along_the_travel() {
   Grid grid = frequencies(12.0, 400.0);
-  for (auto& shape : grid) shape.insert(shape.end(), {0.0, 0.0});
+  for (auto& shape : grid) shape.insert(shape.end(), {0.0, 0.0, 0.0});
   return grid;
 }
 

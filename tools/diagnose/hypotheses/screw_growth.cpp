@@ -24,14 +24,14 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"relative_growth", q[0]}, {"time_constant_s", q[1]}, {"fixed_end_m", q[2]}};
 }
 
-/// Runs that all begin with what it grows to show a wrong lead.
+/// Runs that all begin with what it grows to show a wrong lead, and so does what is over within a second of the first.
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  constexpr double as_grown = 0.2;
+  constexpr double as_grown = 0.2, at_once_s = 1.0;
   const auto later = q.subspan(first_state + 1, line_runs - 1);
   const bool any = std::ranges::any_of(later, [](double before) { return before != 0.0; });
   const bool all_grown = std::ranges::all_of(
       later, [&](double before) { return before == 0.0 || std::abs(before - q[0]) < as_grown * std::abs(q[0]); });
-  return q[0] > 0.0 && !(any && all_grown);
+  return q[0] > 0.0 && q[1] > at_once_s && !(any && all_grown);
 }
 
 }  // namespace
