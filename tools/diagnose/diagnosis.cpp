@@ -221,8 +221,7 @@ class Diagnosing {
   void take_as_unknown(const Learned& learned) {
     result_.verdict = "unknown";
     result_.unknown = learned;
-    if (unknown_)
-      tell_what_rings(fitter_.structure().remaining(model_.residual(told_.axis, told_.effects)), *result_.unknown);
+    if (unknown_) tell_its_frequency(fitter_, told_, *result_.unknown);
     result_.updated = result_.unknown->mode ? with_mode(forward_, fitter_, told_, *result_.unknown)
                                             : with_table(forward_, fitter_, told_, learned);
   }

@@ -91,6 +91,9 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
     out["unknown"]["mode"] = {{"mass_kg", diagnosis.unknown->mode->mass_kg},
                               {"frequency_Hz", diagnosis.unknown->mode->frequency_Hz},
                               {"damping_ratio", diagnosis.unknown->mode->damping_ratio}};
+  if (diagnosis.unknown && diagnosis.unknown->sweep)
+    out["unknown"]["sweep"] = {{"rate_Hz_per_s", diagnosis.unknown->sweep->rate_Hz_per_s},
+                               {"amplitude_N", diagnosis.unknown->sweep->amplitude_N}};
   if (diagnosis.unknown_reading) out["unknown"] = of(*diagnosis.unknown_reading);
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));

@@ -9,6 +9,7 @@
 
 #include "tools/diagnose/fit.h"
 #include "tools/diagnose/ringing.h"
+#include "tools/diagnose/sweep.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -22,6 +23,7 @@ struct Learned {
   double newton = 1.0;                                             ///< what stands for one on this axis (size_of_axis.h)
   bool on_the_table = false;                                       ///< of what the table's own force sensor shows
   std::optional<Mode> mode;                                        ///< a part that rings, in place of the table
+  std::optional<Sweep> sweep;                                      ///< a frequency that runs up or down, likewise
 };
 
 /// The axis that explains most of runs that it was not learned from; of a single run, of every other second. Learned from

@@ -90,6 +90,13 @@ std::string outcome_of(const Diagnosis& diagnosis) {
     return fmt::format("{} numbers of the model are off; no physics is missing beyond {:.2g} N rms.",
                        diagnosis.recalibrated.size(), diagnosis.detection_limit_N);
   if (verdict == "unknown" && diagnosis.unknown_reading) return in_words(*diagnosis.unknown_reading);
+  if (verdict == "unknown" && diagnosis.unknown->sweep)
+    return fmt::format(
+        "The mismatch is real and none of the known effects explains it: {:.2g} N rms, most of it a force of {:.2g} N whose "
+        "frequency runs from {:.3g} to {:.3g} Hz, by {:+.2g} Hz a second, whatever the axis does. The updated axis does not "
+        "hold it: when it begins no run says of another.",
+        diagnosis.unknown->remainder_N, diagnosis.unknown->sweep->amplitude_N, diagnosis.unknown->low,
+        diagnosis.unknown->high, diagnosis.unknown->sweep->rate_Hz_per_s);
   if (verdict == "unknown" && diagnosis.unknown->axis == Where::frequency)
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a part that swings on a "

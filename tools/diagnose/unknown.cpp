@@ -26,6 +26,17 @@ constexpr double clear_share_unseen = 0.2, smallest_clear_N = 0.28;
 // where a hump of drag over speed was told as two laws 0.24 and 1.5 N; of true pairs of such laws less than 0.1
 constexpr double least_share_beside_laws = 0.15;
 
+void tell_what_rings(const Structure& left, Learned& told) {
+  if (!left.rings || left.share < told.share_unseen) return;
+  const auto& [frequency_Hz, damping_ratio, mass_kg] = *left.rings;
+  told.mode = left.rings;
+  told.axis = Where::frequency;
+  told.low = frequency_Hz * (1.0 - damping_ratio);  // half the power
+  told.high = frequency_Hz * (1.0 + damping_ratio);
+  told.share_unseen = left.share;
+  told.remainder_N = left.remainder_N;
+}
+
 }  // namespace
 
 Candidate only_what_the_force_does_not_show(Diagnosis& result, const SearchResult& found, const Candidate& final) {
@@ -53,15 +64,14 @@ bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learn
          table_N > smallest_table_N * learned.newton;
 }
 
-void tell_what_rings(const Structure& left, Learned& told) {
-  if (!left.rings || left.share < told.share_unseen) return;
-  const auto& [frequency_Hz, damping_ratio, mass_kg] = *left.rings;
-  told.mode = left.rings;
-  told.axis = Where::frequency;
-  told.low = frequency_Hz * (1.0 - damping_ratio);  // half the power
-  told.high = frequency_Hz * (1.0 + damping_ratio);
-  told.share_unseen = left.share;
-  told.remainder_N = left.remainder_N;
+void tell_its_frequency(const Fitter& fitter, const Candidate& told, Learned& learned) {
+  const Vector residual = fitter.model().residual(told.axis, told.effects);
+  if ((learned.sweep = sweep_of(fitter.model(), residual))) {
+    learned.axis = Where::frequency;
+    learned.low = learned.sweep->low_Hz, learned.high = learned.sweep->high_Hz;
+    return;
+  }
+  tell_what_rings(fitter.structure().remaining(residual), learned);
 }
 
 plant::AxisParameters with_table(const ForwardModel& forward, const Fitter& fitter, const Candidate& told,

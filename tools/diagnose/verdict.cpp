@@ -7,6 +7,7 @@
 
 #include "tools/diagnose/reading_structure.h"
 #include "tools/diagnose/structure.h"
+#include "tools/diagnose/sweep.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -101,6 +102,11 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
   const Squares squares(before, after);
   progress(fmt::format("structure: {:.2g} N of {:.2g} N left over; before naming {:.2g} N of {:.2g} N",
                        with_names.structured_N(), with_names.remainder_N, before.structured_N(), before.remainder_N));
+  if (const auto sweep = nothing_named ? sweep_of(fitter.model(), residual) : std::nullopt) {
+    progress(
+        fmt::format("a force of {:.2g} N runs from {:.3g} to {:.3g} Hz", sweep->amplitude_N, sweep->low_Hz, sweep->high_Hz));
+    return true;
+  }
   const auto on_the_table = [&](const Vector& left) { return stands_out_on_the_table(structure_of.of_the_table(left)); };
   if (nothing_named && on_the_table(found.recalibrated.residual) && on_the_table(residual) &&
       !force_sensor_shows_more(fitter.model(), final))

@@ -1,0 +1,73 @@
+// A frequency that runs up is found in what is left over, with its rate; a line that stays, and what only sounds so, is
+// none.
+
+#include "tools/diagnose/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/support/made_case.h"
+#include "tests/tools/diagnose/fitted_runs.h"
+
+namespace feedtwin {
+namespace {
+
+using namespace tools::diagnosis;
+
+constexpr double amplitude_N = 3.0, starts_Hz = 9.0;
+
+class SweepOf : public ::testing::Test {
+ protected:
+  /// Of what is left over in the sum of the forces, with one wave more: its frequency at each time.
+  template <class Frequency>
+  [[nodiscard]] std::optional<Sweep> with_wave(const Frequency& frequency_Hz, double noise_N = 0.0) const {
+    Vector residual = made_.fit.residual;
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise(0.0, std::max(noise_N, 1e-9));
+    for (const auto& s : made_.model.segments()) {
+      const double row_s = made_.model.tracks()[s.run].row_s();
+      double cycles = 0.3 * static_cast<double>(s.run);
+      for (Index k = 0; k < s.size; ++k) {
+        cycles += row_s * frequency_Hz(row_s * static_cast<double>(k));
+        residual[s.start + k] += amplitude_N * std::sin(2.0 * std::numbers::pi * cycles) + noise(random);
+      }
+    }
+    return sweep_of(made_.model, residual);
+  }
+
+ private:
+  static std::vector<tools::Recording> runs() {
+    std::vector<tools::Recording> runs;
+    for (const double speed_m_per_s : {0.03, 0.05})
+      runs.push_back(tests::make_recording(
+          plant::source_axis(),
+          {.motion = "triangle", .settings = {.amplitude_m = 0.04, .speed_m_per_s = speed_m_per_s}, .duration_s = 8.0}));
+    return runs;
+  }
+  tests::FittedRuns made_{runs(), plant::source_axis()};
+};
+
+TEST_F(SweepOf, IsFoundWithItsRateUpAndDownInNoiseOfItsOwnSize) {
+  for (const double rate_Hz_per_s : {2.0, 6.0, -1.2}) {
+    const double from_Hz = rate_Hz_per_s > 0.0 ? starts_Hz : starts_Hz + 16.0;
+    const auto sweep = with_wave([&](double t_s) { return from_Hz + rate_Hz_per_s * t_s; }, 2.0);
+    ASSERT_TRUE(sweep.has_value()) << rate_Hz_per_s;
+    EXPECT_NEAR(sweep->rate_Hz_per_s, rate_Hz_per_s, 0.3);
+    EXPECT_NEAR(sweep->amplitude_N, amplitude_N, 0.2 * amplitude_N);
+    const double to_Hz = from_Hz + 8.0 * rate_Hz_per_s;
+    EXPECT_NEAR(sweep->low_Hz, std::min(from_Hz, to_Hz), 0.25 * std::abs(to_Hz - from_Hz));
+    EXPECT_NEAR(sweep->high_Hz, std::max(from_Hz, to_Hz), 0.25 * std::abs(to_Hz - from_Hz));
+  }
+}
+
+TEST_F(SweepOf, IsNoneOfALineThatStaysNorOfOneThatJumpsAbout) {
+  EXPECT_FALSE(with_wave([](double) { return 21.0; }, 2.0).has_value());
+  EXPECT_FALSE(with_wave([](double t_s) { return std::fmod(t_s, 1.0) < 0.5 ? 15.0 : 40.0; }, 2.0).has_value());
+  EXPECT_FALSE(with_wave([](double) { return 0.0; }, 2.0).has_value()) << "noise alone";
+}
+
+}  // namespace
+}  // namespace feedtwin

@@ -1,0 +1,112 @@
+#include "tools/diagnose/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+namespace feedtwin::tools::diagnosis {
+namespace {
+
+constexpr double stretch_s = 2.0, lowest_Hz = 4.0;
+constexpr double fastest_Hz_per_s = 60.0, step_Hz_per_s = 0.5;  // a step moves the ends of a stretch by a quarter of a Hz
+
+/// The wave that is most of one stretch.
+struct Wave {
+  double middle_Hz = 0.0, rate_Hz_per_s = 0.0, amplitude_N = 0.0;
+  double share = 0.0;  ///< of the stretch's squares
+};
+
+/// Rows of a stretch where the axis has settled, fading in and out.
+struct Stretch {
+  Vector values, weights;
+  double row_s;
+};
+
+Index power_of_two_from(Index least) {
+  Index length = 1;
+  while (length < least) length *= 2;
+  return length;
+}
+
+/// The likeliest linear sweep: the rows against each rate, and what is left of it is a line.
+Wave strongest(const Stretch& stretch) {
+  const Index n = stretch.values.size(), length = power_of_two_from(2 * n);
+  const double per_bin_Hz = 1.0 / (static_cast<double>(length) * stretch.row_s);
+  const auto first = static_cast<Index>(std::ceil(lowest_Hz / per_bin_Hz)), last = 9 * length / 20;
+  Eigen::FFT<double> fft;
+  Eigen::VectorXcd against = Eigen::VectorXcd::Zero(length), spectrum;
+  double most = 0.0;
+  Wave best;
+  for (double rate = -fastest_Hz_per_s; rate <= fastest_Hz_per_s; rate += step_Hz_per_s) {
+    for (Index k = 0; k < n; ++k) {
+      const double t_s = (static_cast<double>(k) - 0.5 * static_cast<double>(n)) * stretch.row_s;
+      against[k] = std::polar(stretch.values[k], -std::numbers::pi * rate * t_s * t_s);
+    }
+    fft.fwd(spectrum, against);
+    Index at = 0;
+    const double power = spectrum.cwiseAbs2().segment(first, last - first).maxCoeff(&at);
+    if (power > most) most = power, best.middle_Hz = per_bin_Hz * static_cast<double>(first + at), best.rate_Hz_per_s = rate;
+  }
+  const double weights = stretch.weights.sum(), squares = stretch.values.squaredNorm();
+  best.amplitude_N = 2.0 * std::sqrt(most) / weights;
+  best.share = 0.5 * best.amplitude_N * best.amplitude_N * stretch.weights.squaredNorm() / squares;
+  return best;
+}
+
+/// One after the other, half of each in the next; without a share where the axis has not settled for half of it.
+std::vector<Wave> waves_of(const InverseModel& model, const Vector& residual, const Segment& s) {
+  const double row_s = model.tracks()[s.run].row_s();
+  const auto rows = static_cast<Index>(std::lround(stretch_s / row_s));
+  std::vector<Wave> waves;
+  for (Index from = 0; from + rows <= s.size; from += rows / 2) {
+    Stretch stretch{Vector(rows), Vector(rows), row_s};
+    Index settled = 0;
+    for (Index k = 0; k < rows; ++k) {
+      const bool in = model.settled(s.start + from + k);
+      const double fades =
+          std::pow(std::sin(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(rows)), 2);
+      stretch.weights[k] = in ? fades : 0.0;
+      stretch.values[k] = stretch.weights[k] * residual[s.start + from + k];
+      settled += in ? 1 : 0;
+    }
+    waves.push_back(2 * settled > rows && stretch.values.squaredNorm() > 0.0 ? strongest(stretch) : Wave{});
+  }
+  return waves;
+}
+
+/// Does the later one, half a stretch on, go on where the earlier one leads?
+bool goes_on(const Wave& earlier, const Wave& later) {
+  // of 160 cases of two generators no axis without one had two such pairs in all its runs; one that swept had 22 of 22
+  constexpr double least_share = 0.15, least_Hz_per_s = 1.0, off_Hz = 1.0;
+  const auto moves = [&](const Wave& w) { return w.share > least_share && std::abs(w.rate_Hz_per_s) >= least_Hz_per_s; };
+  const double leads_to_Hz = earlier.middle_Hz + 0.25 * stretch_s * (earlier.rate_Hz_per_s + later.rate_Hz_per_s);
+  return moves(earlier) && moves(later) && std::abs(later.middle_Hz - leads_to_Hz) < off_Hz;
+}
+
+}  // namespace
+
+std::optional<Sweep> sweep_of(const InverseModel& model, const Vector& residual) {
+  constexpr std::size_t least_pairs = 4;
+  std::vector<Wave> swept;
+  for (const auto& s : model.segments()) {
+    if (!model.equations()[s.equation].guide) continue;
+    const auto waves = waves_of(model, residual, s);
+    for (std::size_t i = 1; i < waves.size(); ++i)
+      if (goes_on(waves[i - 1], waves[i])) swept.push_back(waves[i]);
+  }
+  if (swept.size() < least_pairs) return std::nullopt;
+  Sweep sweep{swept.front().middle_Hz, swept.front().middle_Hz, 0.0, 0.0};
+  for (const auto& wave : swept) {
+    const double half_Hz = 0.25 * stretch_s * std::abs(wave.rate_Hz_per_s);
+    sweep.low_Hz = std::min(sweep.low_Hz, wave.middle_Hz - half_Hz);
+    sweep.high_Hz = std::max(sweep.high_Hz, wave.middle_Hz + half_Hz);
+    sweep.rate_Hz_per_s += wave.rate_Hz_per_s / static_cast<double>(swept.size());
+    sweep.amplitude_N += wave.amplitude_N / static_cast<double>(swept.size());
+  }
+  return sweep;
+}
+
+}  // namespace feedtwin::tools::diagnosis
