@@ -11,7 +11,8 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double stretch_s = 2.0, lowest_Hz = 4.0;
-constexpr double fastest_Hz_per_s = 60.0, step_Hz_per_s = 0.5;  // a step moves the ends of a stretch by a quarter of a Hz
+constexpr double step_Hz_per_s = 0.5;  // moves the ends of a stretch by half a Hz
+constexpr int most_steps = 120;
 
 /// The wave that is most of one stretch.
 struct Wave {
@@ -40,7 +41,8 @@ Wave strongest(const Stretch& stretch) {
   Eigen::VectorXcd against = Eigen::VectorXcd::Zero(length), spectrum;
   double most = 0.0;
   Wave best;
-  for (double rate = -fastest_Hz_per_s; rate <= fastest_Hz_per_s; rate += step_Hz_per_s) {
+  for (int step = -most_steps; step <= most_steps; ++step) {
+    const double rate = step * step_Hz_per_s;
     for (Index k = 0; k < n; ++k) {
       const double t_s = (static_cast<double>(k) - 0.5 * static_cast<double>(n)) * stretch.row_s;
       against[k] = std::polar(stretch.values[k], -std::numbers::pi * rate * t_s * t_s);

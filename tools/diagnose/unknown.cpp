@@ -66,7 +66,8 @@ bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learn
 
 void tell_its_frequency(const Fitter& fitter, const Candidate& told, Learned& learned) {
   const Vector residual = fitter.model().residual(told.axis, told.effects);
-  if ((learned.sweep = sweep_of(fitter.model(), residual))) {
+  learned.sweep = sweep_of(fitter.model(), residual);
+  if (learned.sweep) {
     learned.axis = Where::frequency;
     learned.low = learned.sweep->low_Hz, learned.high = learned.sweep->high_Hz;
     return;
