@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -19,6 +22,14 @@ std::string how_much(const NamedEffect& effect) {
   if (effect.by_closed_loop)
     return "Other numbers of the model can imitate its force; the simulated motion tells it from them";
   return fmt::format("It makes {:.0f} % of what the recalibrated model leaves over", 100.0 * effect.share);
+}
+
+/// Of a tool that cuts one way alone.
+std::string which_way(const NamedEffect& effect) {
+  const auto only = std::ranges::find(effect.parameters, "only_direction", &std::pair<std::string, Estimate>::first);
+  if (only == effect.parameters.end()) return "";
+  return fmt::format(" It acts while the table moves in {} direction and not on the way back.",
+                     only->second.value > 0.0 ? "positive" : "negative");
 }
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -38,6 +49,7 @@ std::string sentence_of(const NamedEffect& effect) {
     text.replace(at, text.find('}', at) + 1 - at, "(not told by these data)");
   text = fmt::format("{}: {}. {}; chance of a false alarm over all hypotheses {:.1g}.", effect.component, text,
                      how_much(effect), std::max(1e-6, effect.p_false_alarm));
+  text += which_way(effect);
   std::vector<std::string> ruled_out;
   for (const auto other : effect.hypothesis->confused_with)
     if (other != told_id(*effect.hypothesis) && std::ranges::find(effect.alternatives, other) == effect.alternatives.end())

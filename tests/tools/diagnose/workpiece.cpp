@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tests/support/made_case.h"
 #include "tests/tools/diagnose/fitted_runs.h"
@@ -78,6 +79,11 @@ TEST(Workpiece, MayBeCutOneWayAlone) {
     EXPECT_NEAR(named[1].value, 4.0, 0.6);
     EXPECT_EQ(named.back().name, "only_direction");
     EXPECT_EQ(named.back().value, only_direction);
+    Found found;
+    found.effect = process;
+    const auto told = named_effect(found, fit, robust_covariance(made.model, fit), made.model);
+    const std::string way = only_direction > 0.0 ? "in positive direction" : "in negative direction";
+    EXPECT_NE(told.sentence.find(way), std::string::npos) << told.sentence;
   }
 }
 
