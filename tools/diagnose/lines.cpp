@@ -1,6 +1,7 @@
 #include "tools/diagnose/lines.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -28,8 +29,7 @@ struct Rows {
 /// Frequency of the strongest line above another in radians a row, if there is one.
 std::optional<double> strongest_line(const Rows& rows, double above_Hz) {
   const Index n = rows.values.size();
-  Index length = 1;
-  while (length < 2 * n) length *= 2;
+  const auto length = static_cast<Index>(std::bit_ceil(static_cast<std::size_t>(2 * n)));
   Eigen::VectorXd padded = Eigen::VectorXd::Zero(length);
   padded.head(n) = rows.values;
   Eigen::VectorXcd spectrum;

@@ -26,10 +26,10 @@ std::string how_much(const NamedEffect& effect) {
 
 /// Of a tool that cuts one way alone.
 std::string which_way(const NamedEffect& effect) {
-  const auto only = std::ranges::find(effect.parameters, "only_direction", &std::pair<std::string, Estimate>::first);
-  if (only == effect.parameters.end()) return "";
+  const double only = value_of(effect, "only_direction");
+  if (only == 0.0) return "";
   return fmt::format(" It acts while the table moves in {} direction and not on the way back.",
-                     only->second.value > 0.0 ? "positive" : "negative");
+                     only > 0.0 ? "positive" : "negative");
 }
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -37,6 +37,11 @@ std::string list_of(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+double value_of(const NamedEffect& effect, std::string_view name) {
+  const auto found = std::ranges::find(effect.parameters, name, &std::pair<std::string, Estimate>::first);
+  return found == effect.parameters.end() ? 0.0 : found->second.value;
+}
 
 std::string sentence_of(const NamedEffect& effect) {
   std::string text(effect.hypothesis->sentence);

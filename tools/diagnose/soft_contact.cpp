@@ -40,7 +40,7 @@ std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fi
   if (now.value > softened * bristle->was || now.high > surely_softened * bristle->was || yields_m < least_yield_m)
     return std::nullopt;
   // of a screw whose friction hardly counts beside the guide's, the bristle takes what any contact leaves: on another
-  // generator's axes with nothing hidden 0.05 and 0.13 of the file's were left, with 3 % of the friction
+  // generator's axes with nothing hidden 0.05 and 0.13 of the file's were left, with 3 to 5 % of the friction
   constexpr double least_share = 0.1;
   if (force_N < least_share * (force_N + mean(fit.model.axis.guide.coulomb_N))) return std::nullopt;
   const double deviation = std::max(0.5 * (now.high - now.low) / normal_90, 1e-3 * now.value);

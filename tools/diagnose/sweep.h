@@ -14,7 +14,8 @@ struct Sweep {
   double amplitude_N = 0.0;
 };
 
-/// The sweep that the sum of the forces holds, wherever the axis has settled.
+/// The sweep that the equation of the table holds (its own behind a force sensor, otherwise the sum), wherever the axis has
+/// settled.
 /// @param residual N, rows of all equations
 /// @return none where fewer than four stretches of two seconds go on from the one before, at a frequency that moves
 [[nodiscard]] std::optional<Sweep> sweep_of(const InverseModel& model, const Vector& residual);

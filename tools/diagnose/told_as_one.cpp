@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/sentence.h"
+
 namespace feedtwin::tools::diagnosis {
 namespace {
 
 std::vector<NamedEffect>::iterator place_of(Diagnosis& result, std::string_view id) {
   return std::ranges::find(result.effects, &hypothesis(id), &NamedEffect::hypothesis);
-}
-
-/// A parameter's value; none where the effect has none of that name.
-double value_of(const NamedEffect& effect, std::string_view name) {
-  const auto found = std::ranges::find(effect.parameters, name, &std::pair<std::string, Estimate>::first);
-  return found == effect.parameters.end() ? 0.0 : found->second.value;
 }
 
 /// Two or three times as often a revolution, less than half as large.

@@ -29,8 +29,8 @@ constexpr Step of_readings{1.05, 0.0, 1000.0, 6.0};
 // A true torque constant of 15 % had 3396 nats, 10.1 deviations, 267 nearer, a sensor 1.59 times as close and 43 % of its
 // error; of 300 made cases with nothing hidden what came 30 nearer and more had 0.5 deviations at most.
 constexpr Step by_the_file{1.2, 0.0, 1000.0, 6.0};
-// What numbers take up in most stretches, and not where it shows: an offset on an axis of 20 N left the torque's error at
-// rest 4.0 times as large, by 258 nats, 2.7 deviations and 16 nearer.
+// What numbers take up in most stretches, and not in all: without an offset on an axis of 20 N the torque was 4.0 times as
+// far off, by 258 nats, 2.7 deviations and 16 nearer.
 constexpr Step most_of_it{3.0, 0.8, 200.0, 2.0};
 constexpr double least_nearer = 10.0;
 constexpr double least_deviations_by_runs = 4.5;  // of what numbers take up: right ones 6.0, wrong ones 3.1 and 3.7
