@@ -20,12 +20,12 @@
 namespace feedtwin::tools {
 namespace {
 
-struct Options {
+struct CanFilesOptions {
   std::string config, folder = ".";
   int node_id = 1;
 };
 
-int run(const Options& options) {
+int run_can_files(const CanFilesOptions& options) {
   ConfigRequest request;
   request.path = options.config;
   request.with_ports = false;
@@ -57,12 +57,12 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_can_files(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CanFilesOptions>();
   app.add_option("CONFIG", options->config, "server configuration or axis file (TOML); without it, the source's axis");
   app.add_option("--out", options->folder, "folder to write to")->type_name("DIR");
   app.add_option("--node-id", options->node_id, "of the first axis; each further axis takes the next one")
       ->check(CLI::Range(1, 127));
-  return [options] { return run(*options); };
+  return [options] { return run_can_files(*options); };
 }
 
 }  // namespace feedtwin::tools

@@ -18,11 +18,11 @@
 namespace feedtwin::tools {
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string folder, axis, other, json;
 };
 
-int run(const Options& options) {
+int run_compare(const CompareOptions& options) {
   const Case recordings = read_case(options.folder);
   for (const auto& remark : recordings.remarks) fmt::print(stderr, "feedtwin: {}\n", remark);
   const auto axis = options.axis.empty() ? recordings.axis : read_axis_file(options.axis);
@@ -48,13 +48,13 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_compare(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   app.add_option("CASE", options->folder, "folder with case.toml, or the file itself")->required();
   app.add_option("--axis", options->axis, "axis file to simulate instead of the case's own")->type_name("FILE");
   app.add_option("--other-axis", options->other, "case of the axis that moved with it: contour errors, run by run")
       ->type_name("CASE");
   add_json_option(app, options->json);
-  return [options] { return run(*options); };
+  return [options] { return run_compare(*options); };
 }
 
 }  // namespace feedtwin::tools

@@ -19,7 +19,7 @@
 namespace feedtwin::tools {
 namespace {
 
-struct Options {
+struct DiagnoseOptions {
   std::string folder, json, axis;
   bool hil = false;
   double hil_s = 0.0;
@@ -42,7 +42,7 @@ void print(const diagnosis::HilComparison& hil) {
                hil.after.nrmse.at(channel));
 }
 
-int run(const Options& options) {
+int run_diagnose(const DiagnoseOptions& options) {
   keep_freed_memory();
   const Case data = read_case(options.folder);
   for (const auto& remark : data.remarks) fmt::print(stderr, "feedtwin: {}\n", remark);
@@ -68,7 +68,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_diagnose(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiagnoseOptions>();
   app.add_option("CASE", options->folder, "folder of the case, or its case.toml")->required();
   add_json_option(app, options->json);
   app.add_option("--axis", options->axis, "write the updated axis here; by default axis.updated.toml beside the JSON")
@@ -78,7 +78,7 @@ std::function<int()> prepare_diagnose(CLI::App& app) {
   app.add_option("--hil-seconds", options->hil_s, "of it; 0: to the recording's end")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
-  return [options] { return run(*options); };
+  return [options] { return run_diagnose(*options); };
 }
 
 }  // namespace feedtwin::tools

@@ -21,7 +21,7 @@
 namespace feedtwin::tools {
 namespace {
 
-struct Options {
+struct IdentifyOptions {
   std::string folder, out, json;
   bool force_offset = false;
   std::string method = "staged";
@@ -43,7 +43,7 @@ std::optional<Case> read_everywhere(const std::string& folder, const Ranks& rank
   return std::nullopt;
 }
 
-void write_results(const Options& options, const Case& recordings, const Identification& found) {
+void write_results(const IdentifyOptions& options, const Case& recordings, const Identification& found) {
   fmt::print("{}", to_text(found));
   if (!options.out.empty()) write_axis_file(options.out, found.axis);
   if (options.json.empty()) return;
@@ -57,7 +57,7 @@ void write_results(const Options& options, const Case& recordings, const Identif
   write_json(options.json, out);
 }
 
-int run(const Options& options) {
+int run_identify(const IdentifyOptions& options) {
   const Ranks& ranks = Ranks::world();
   lanes::use_no_wider_than(smallest_of(ranks, lanes::best_kernel().width));
   const auto recordings = read_everywhere(options.folder, ranks);
@@ -79,7 +79,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_identify(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyOptions>();
   app.add_option("CASE", options->folder, "folder with case.toml, or the file itself")->required();
   app.add_option("--out", options->out, "write the identified axis to this file")->type_name("FILE");
   app.add_flag("--force-offset", options->force_offset,
@@ -93,7 +93,7 @@ std::function<int()> prepare_identify(CLI::App& app) {
   app.add_option("--method", options->method, meanings)->check(CLI::IsMember(names))->capture_default_str();
   app.add_option("--seed", options->seed, "of the population's draws")->capture_default_str();
   add_json_option(app, options->json);
-  return [options] { return run(*options); };
+  return [options] { return run_identify(*options); };
 }
 
 }  // namespace feedtwin::tools

@@ -1,6 +1,7 @@
 #include "tools/linear_systems.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <vector>
@@ -18,6 +19,17 @@ VectorXd solved(const MatrixXd& symmetric, const VectorXd& right) {
 
 MatrixXd inverse_of(const MatrixXd& symmetric) {
   return symmetric.ldlt().solve(MatrixXd::Identity(symmetric.rows(), symmetric.cols()));
+}
+
+std::optional<MatrixXd> inverse_if_conditioned(const MatrixXd& symmetric, double least_reciprocal_condition) {
+  const auto solver = symmetric.ldlt();
+  if (solver.info() != Eigen::Success || solver.rcond() < least_reciprocal_condition) return std::nullopt;
+  return solver.solve(MatrixXd::Identity(symmetric.rows(), symmetric.cols()));
+}
+
+PrincipalAxes principal_axes(const MatrixXd& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 VectorXd least_squares(const MatrixXd& columns, const VectorXd& values) {

@@ -3,6 +3,7 @@
 // takes longest to compile.
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace feedtwin::tools {
 
@@ -10,6 +11,14 @@ namespace feedtwin::tools {
 [[nodiscard]] Eigen::VectorXd solved(const Eigen::MatrixXd& symmetric, const Eigen::VectorXd& right);
 /// A^-1, likewise
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& symmetric);
+/// A^-1, where its reciprocal condition number is not below the least that is asked for.
+[[nodiscard]] std::optional<Eigen::MatrixXd> inverse_if_conditioned(const Eigen::MatrixXd& symmetric,
+                                                                    double least_reciprocal_condition);
+struct PrincipalAxes {
+  Eigen::VectorXd values;   ///< eigenvalues, ascending
+  Eigen::MatrixXd vectors;  ///< a column each, of length one
+};
+[[nodiscard]] PrincipalAxes principal_axes(const Eigen::MatrixXd& symmetric);
 /// The x that brings A x closest to b; columns that others make up get no part.
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 /// A^T b, on all cores.

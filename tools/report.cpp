@@ -18,7 +18,7 @@
 namespace feedtwin::tools {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string file, out;
 };
 
@@ -33,7 +33,7 @@ nlohmann::json read_json(const std::string& path) {
   }
 }
 
-int run(const Options& options) {
+int run_report(const ReportOptions& options) {
   const nlohmann::json json = read_json(options.file);
   if (!json.is_object()) throw InputError(options.file, 0, "", "expected the JSON object that a verb wrote with --json");
   const std::string verb = json.contains("verb") && json["verb"].is_string() ? json["verb"].get<std::string>() + ": " : "";
@@ -47,10 +47,10 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_report(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   app.add_option("FILE", options->file, "what a verb wrote with --json")->required();
   app.add_option("--out", options->out, "the page; without it, FILE with the ending .html")->type_name("FILE");
-  return [options] { return run(*options); };
+  return [options] { return run_report(*options); };
 }
 
 }  // namespace feedtwin::tools

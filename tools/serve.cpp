@@ -15,7 +15,7 @@
 namespace feedtwin::tools {
 namespace {
 
-struct Options {
+struct ServeOptions {
   std::string config, controller, log, json;
   double duration_s = 0.0;
 };
@@ -27,7 +27,7 @@ void request_stop(int) {
   stop_requested.store(true);
 }
 
-int run(const Options& options) {
+int run_serve(const ServeOptions& options) {
   ConfigRequest request;
   request.path = options.config;
   if (!options.controller.empty()) request.controller = options.controller;
@@ -48,7 +48,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_serve(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ServeOptions>();
   app.add_option("CONFIG", options->config,
                  "server configuration, axis or machine file (TOML); without it, the source's axis");
   app.add_option("--duration", options->duration_s,
@@ -58,7 +58,7 @@ std::function<int()> prepare_serve(CLI::App& app) {
                  "who commands: loopback, modbus, can, udp or a port's name; program, for a machine file");
   app.add_option("--log", options->log, "recording of every tick (CSV), with its events beside it")->type_name("FILE");
   add_json_option(app, options->json);
-  return [options] { return run(*options); };
+  return [options] { return run_serve(*options); };
 }
 
 }  // namespace feedtwin::tools

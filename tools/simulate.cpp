@@ -17,12 +17,12 @@ namespace {
 
 constexpr double default_duration_s = 10.0;
 
-struct Options {
+struct SimulateOptions {
   std::string config, log = "simulated.csv", json;
   std::optional<double> duration_s;
 };
 
-int run(const Options& options) {
+int run_simulate(const SimulateOptions& options) {
   ServerConfig config = read_server_config({.path = options.config, .with_ports = false, .commanded_inside = true});
   config.log_path = options.log;
   const bool whole_program = config.machine && !options.duration_s;
@@ -39,14 +39,14 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_simulate(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   app.add_option("CONFIG", options->config,
                  "server configuration, axis or machine file (TOML); without it, the source's axis");
   app.add_option("--duration", options->duration_s, "simulated time in s; without it 10 s, or to a program's end")
       ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--log,--out", options->log, "where the recording goes")->type_name("FILE")->capture_default_str();
   add_json_option(app, options->json);
-  return [options] { return run(*options); };
+  return [options] { return run_simulate(*options); };
 }
 
 }  // namespace feedtwin::tools

@@ -10,11 +10,12 @@
 
 #include "plant/parameter_table.h"
 #include "tests/support/random_axis.h"
+#include "tests/support/tick.h"
 
 namespace feedtwin::plant {
 namespace {
 
-constexpr double tick_s = 1e-3;
+using test::tick_s;
 
 /// What may come from outside: within limits, beyond them, and what is no number.
 class Inputs {

@@ -134,12 +134,12 @@ TEST(Lugre, LongSlidingEndsAtTheSteadyForce) {
 }
 
 TEST(Lugre, EightLanesGiveWhatEachGivesAlone) {
-  using Octet = Doubles<8>;
+  using Eight = Doubles<8>;
   Samples samples(25);
   for (int i = 0; i < 20000; ++i) {
-    LugreBristle<Octet> bristle;
-    LugreSide<Octet> side;
-    Octet sign, speed, z, h, per_h;
+    LugreBristle<Eight> bristle;
+    LugreSide<Eight> side;
+    Eight sign, speed, z, h, per_h;
     std::array<Sample, 8> alone;
     for (std::size_t lane = 0; lane < 8; ++lane) {
       const Sample& s = alone[lane] = samples.next();
@@ -156,7 +156,7 @@ TEST(Lugre, EightLanesGiveWhatEachGivesAlone) {
       h[lane] = s.h;
       per_h[lane] = 1.0 / s.h;
     }
-    const auto together = lugre_step<Octet>(bristle, side, sign, speed, z, h, per_h);
+    const auto together = lugre_step<Eight>(bristle, side, sign, speed, z, h, per_h);
     for (std::size_t lane = 0; lane < 8; ++lane) {
       const auto r = step(alone[lane]);
       // the order of additions may differ between widths: compare with what was added up

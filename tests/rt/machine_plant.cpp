@@ -23,9 +23,9 @@ plant::MachineParameters parameters() {
 constexpr plant::BlockParameters wide_block{-1.0, 1.0, -1.0, 1.0, 0.0};
 
 /// Random torques, spindle speeds, M-codes and engagements, the same for the same seed.
-class ScriptedPort final : public io::Port {
+class MachinePort final : public io::Port {
  public:
-  explicit ScriptedPort(unsigned seed) : random_(seed) {}
+  explicit MachinePort(unsigned seed) : random_(seed) {}
   [[nodiscard]] std::string_view name() const noexcept override { return "scripted"; }
   void open() override {}
   void close() noexcept override {}
@@ -68,15 +68,15 @@ class ScriptedPort final : public io::Port {
   std::int64_t now_ns_ = 0;
 };
 
-struct Bench {
-  explicit Bench(unsigned seed, std::size_t rows = 1024, const plant::BlockParameters& block = wide_block)
+struct MachineBench {
+  explicit MachineBench(unsigned seed, std::size_t rows = 1024, const plant::BlockParameters& block = wide_block)
       : plant(parameters(), block, rows), port(seed) {
     loop =
         std::make_unique<PlantLoop>(plant, port, std::vector<io::Port*>{}, clock, LoopSettings{.watchdog_ns = 20'000'000});
   }
   void run(std::uint64_t ticks) { loop->run_to(loop->stats().ticks + ticks, stop); }
   MachinePlant plant;
-  ScriptedPort port;
+  MachinePort port;
   OfflineClock clock{1'000'000};
   std::atomic<bool> stop{false};
   std::unique_ptr<PlantLoop> loop;
@@ -85,8 +85,8 @@ struct Bench {
 TEST(MachinePlant, UnderTheLoopIsTheMachineByItself) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
-    Bench bench(seed);
-    ScriptedPort same(seed);
+    MachineBench bench(seed);
+    MachinePort same(seed);
     plant::Machine twin(parameters());
     same.draw();
     for (int tick = 0; tick < 2000; ++tick) {
@@ -106,7 +106,7 @@ TEST(MachinePlant, UnderTheLoopIsTheMachineByItself) {
 }
 
 TEST(MachinePlant, TheTickDoesNotAllocateAndCountsRowsThatFindNoRoom) {
-  Bench bench(3, 512);
+  MachineBench bench(3, 512);
   bench.run(10);
   std::uint64_t allocations = 0;
   {
@@ -119,7 +119,7 @@ TEST(MachinePlant, TheTickDoesNotAllocateAndCountsRowsThatFindNoRoom) {
 }
 
 TEST(MachinePlant, RowsHoldTheEnergyOfTheirTicks) {
-  Bench bench(4, 4096);
+  MachineBench bench(4, 4096);
   bench.run(2000);
   std::vector<MachineRecord> rows(4096);
   ASSERT_EQ(bench.plant.records().pop(rows), 2000U);
@@ -133,7 +133,7 @@ TEST(MachinePlant, RowsHoldTheEnergyOfTheirTicks) {
 }
 
 TEST(MachinePlant, ASilentControllerLosesSpindleAndPumpWithItsTorque) {
-  Bench bench(5);
+  MachineBench bench(5);
   bench.port.random = false;
   bench.port.machine = {.spindle_speed_rad_per_s = 200.0, .pump = true};
   bench.run(2000);
@@ -148,7 +148,7 @@ TEST(MachinePlant, ASilentControllerLosesSpindleAndPumpWithItsTorque) {
 
 TEST(MachinePlant, DepthOfCutActsOverTheBlockOnly) {
   const auto removed = [](const plant::BlockParameters& block) {
-    Bench bench(6, 16, block);
+    MachineBench bench(6, 16, block);
     bench.port.random = false;
     bench.port.torques_Nm = {0.5, 0.3};
     bench.port.machine = {.spindle_speed_rad_per_s = 300.0, .depth_of_cut_m = 1e-4};

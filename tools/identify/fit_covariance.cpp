@@ -1,6 +1,5 @@
 #include "tools/identify/fit_covariance.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -51,11 +50,11 @@ std::vector<Trade> trades_of(const MatrixXd& covariance, const std::vector<FitPa
   VectorXd scale(covariance.rows());
   for (Index i = 0; i < scale.size(); ++i) scale[i] = parameters[static_cast<std::size_t>(i)].scale;
   const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
+  const PrincipalAxes axes = principal_axes(scaled);
   std::vector<Trade> trades;
   for (Index d = scaled.rows() - 1; d >= 0; --d) {
-    if (std::sqrt(std::max(eigen.eigenvalues()[d], 0.0)) < told_below) break;
-    const VectorXd direction = eigen.eigenvectors().col(d);
+    if (std::sqrt(std::max(axes.values[d], 0.0)) < told_below) break;
+    const VectorXd direction = axes.vectors.col(d);
     Trade trade;
     for (Index i = 0; i < direction.size(); ++i) {
       if (std::abs(direction[i]) < 0.25) continue;

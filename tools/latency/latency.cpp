@@ -25,7 +25,7 @@
 namespace feedtwin::tools {
 namespace {
 
-struct Options {
+struct LatencyOptions {
   std::string config, json;
   double duration_s = 10.0;
   int pairs = 1;
@@ -38,7 +38,7 @@ struct Pair {
   std::array<double, shares.size()> ours_us{}, cyclictest_us{};
 };
 
-ServerConfig configure(const Options& options) {
+ServerConfig configure(const LatencyOptions& options) {
   ServerConfig config = read_server_config({.path = options.config, .controller = "loopback", .with_ports = false});
   config.log_path.clear();
   if (options.cpu) config.real_time.cpu = *options.cpu;
@@ -63,7 +63,7 @@ void draw(const rt::LatencyHistogram& histogram) {
 }
 
 /// A run of its own, commanded over UDP: the probe would disturb the comparison with cyclictest.
-nlohmann::json measure_input_to_output(const Options& options) {
+nlohmann::json measure_input_to_output(const LatencyOptions& options) {
   ServerConfig config = configure(options);
   config.axes.resize(1);
   config.controller = "udp";
@@ -106,7 +106,7 @@ nlohmann::json compare(const std::vector<Pair>& pairs) {
   return out;
 }
 
-int run(const Options& options) {
+int run_latency(const LatencyOptions& options) {
   const bool yardstick = cyclictest_is_installed();
   if (!yardstick) fmt::print(stderr, "cyclictest is not installed (Debian: rt-tests); measuring without the yardstick\n");
   std::vector<Pair> pairs;
@@ -145,7 +145,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_latency(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LatencyOptions>();
   app.add_option("CONFIG", options->config, "server configuration or axis file (TOML); without it, the source's axis");
   app.add_option("--duration", options->duration_s, "length of each run in s")
       ->check(CLI::Range(0.1, 86400.0))
@@ -156,7 +156,7 @@ std::function<int()> prepare_latency(CLI::App& app) {
   app.add_option("--cpu", options->cpu, "core for the tick and for cyclictest");
   app.add_option("--priority", options->priority, "SCHED_FIFO priority of both")->check(CLI::Range(1, 98));
   add_json_option(app, options->json);
-  return [options] { return run(*options); };
+  return [options] { return run_latency(*options); };
 }
 
 }  // namespace feedtwin::tools

@@ -29,7 +29,7 @@ namespace {
 
 constexpr int figure_sample_ticks = 10;
 
-struct Options {
+struct MachineOptions {
   std::string config, compare, json, log, program, reproduce;
   std::vector<std::string> set, sweep;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
@@ -54,7 +54,7 @@ int list_keys() {
   return done;
 }
 
-int sweep(const MachineJob& job, const Options& options) {
+int sweep(const MachineJob& job, const MachineOptions& options) {
   std::vector<SweepAxis> axes;
   for (const auto& text : options.sweep) axes.push_back(read_sweep_axis(text));
   const auto points = run_sweep(job, axes, options.threads);
@@ -79,7 +79,7 @@ int sweep(const MachineJob& job, const Options& options) {
   return done;
 }
 
-int run(const Options& options) {
+int run_machine(const MachineOptions& options) {
   if (options.list_keys) return list_keys();
   if (!options.reproduce.empty()) return reproduce(options.reproduce, options.json, options.threads);
   MachineJob job = read_job(options.config);
@@ -118,7 +118,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> prepare_machine(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MachineOptions>();
   app.add_option("CONFIG", options->config, "machine file (TOML); without it, the source's machine and its channel");
   app.add_option("--program", options->program, "G-code to run instead of the machine file's")->type_name("FILE");
   app.add_option("--set", options->set, "change one key of the machine; with --compare, of B alone; --keys lists them")
@@ -137,7 +137,7 @@ std::function<int()> prepare_machine(CLI::App& app) {
       ->type_name("FILE");
   app.add_flag("--keys", options->list_keys, "list every key of a machine file and end");
   add_json_option(app, options->json);
-  return [options] { return run(*options); };
+  return [options] { return run_machine(*options); };
 }
 
 }  // namespace feedtwin::tools

@@ -37,9 +37,9 @@ MachineJob circle() {
   return job;
 }
 
-class Table {
+class SideBySide {
  public:
-  explicit Table(std::vector<ReproducedNumber>& rows) : rows_(rows) {}
+  explicit SideBySide(std::vector<ReproducedNumber>& rows) : rows_(rows) {}
   void compare(const std::string& where, const std::string& quantity, const std::string& unit, double source, double ours,
                const std::string& reason = "") {
     rows_.push_back({where, quantity, unit, source, ours, reason, false});
@@ -53,7 +53,7 @@ class Table {
   std::vector<ReproducedNumber>& rows_;
 };
 
-void table_3(Table& table) {
+void table_3(SideBySide& table) {
   const auto r = run_machine(circle());
   const char* why =
       "the source gives neither the contour nor the gains; here a circle of 10 mm radius at 6 mm/s, friction fed forward. "
@@ -68,7 +68,7 @@ void table_3(Table& table) {
   table.compare("Table 3", "tracking error, RMS (HIL)", "um", 0.47, r.tracking_rms_m * 1e6, why);
 }
 
-void table_4(Table& table) {
+void table_4(SideBySide& table) {
   struct Wave {
     const char *name, *motion;
     std::array<double, 4> estimated_J;
@@ -101,7 +101,7 @@ void table_4(Table& table) {
                 "the conclusions");
 }
 
-void table_5(Table& table) {
+void table_5(SideBySide& table) {
   const char* why = "as printed it makes 6.65 kW at 3000 rpm; a thousandth makes 6.65 W and fits the 11.84 W of Fig. 8";
   table.compare("Table 5", "spindle motor A, k_e2", "W s^2/rad^2", 6.74e-2, plant::spindle_motor_A().ke2_Ws2_per_rad2, why);
   table.compare("Table 5", "spindle motor B, k_e2", "W s^2/rad^2", 4.71e-2, plant::spindle_motor_B().ke2_Ws2_per_rad2, why);
@@ -129,7 +129,7 @@ double spindle_at_W(const MachineResult& r, double time_s) {
   return count > 0 ? sum / count : 0.0;
 }
 
-void figures_7_to_10(Table& table, const MachineResult& a, const MachineResult& b) {
+void figures_7_to_10(SideBySide& table, const MachineResult& a, const MachineResult& b) {
   table.compare("Section 4", "largest cutting torque, case A (the source: less than)", "N m", 0.03, a.peak_cutting_torque_Nm,
                 "the source gives a bound only");
   const double in_material[] = {corner_error_um(a, 44.2, 0.0), corner_error_um(a, 44.2, 12.0)};
@@ -156,7 +156,7 @@ void figures_7_to_10(Table& table, const MachineResult& a, const MachineResult& 
   table.target("Fig. 9", "spindle, case B, at 12 s", "W", 8.83, spindle_at_W(b, 12.0), difference);
 }
 
-void figure_11(Table& table, const SpecificEnergyFit& fit, const std::vector<SweepPoint>& points) {
+void figure_11(SideBySide& table, const SpecificEnergyFit& fit, const std::vector<SweepPoint>& points) {
   table.target("Eq. 15", "SEC, a of a / MRR + b", "W", 37.5, fit.a_W,
                "whole program of case B for the volume removed; during the cut alone the fixed power is 25.5 W, which "
                "cannot be 37.5");
@@ -210,7 +210,8 @@ const std::vector<std::string>& free_choices() {
       "Cutting coefficients of the order of an engineering plastic: K_tc 160, K_rc 50 N/mm^2, K_te 1.1, K_re 1.0 N/mm: 1 W "
       "at the "
       "spindle, between what the losses of cases A and B leave.",
-      "x axis: Table 2. y axis: Table 2 with 8 kg more, the slide that it carries. z: follows exactly, no drive model.",
+      "x axis: Table 2. y axis: Table 2 with 8 kg more, the slide that it carries. z: follows exactly, no drive "
+      "model.",
       "Loop gains K_v 150 1/s, K_p 40 kN s/m, K_i 4 MN/m, friction and inertia fed forward; encoder 65536 counts a "
       "revolution; 1 kHz.",
       "Interpolator: 1 m/s^2, 50 m/s^3, corners rounded within 5 um.",
@@ -231,7 +232,7 @@ Reproduction make_reproduction(unsigned threads) {
   r.case_b = run_machine(b, every_tick);
   r.sweep = run_sweep(b, {read_sweep_axis("process.mrr_mm3_per_s=1:10:10")}, threads);
   r.fit = fit_specific_energy(r.sweep);
-  Table table(r.numbers);
+  SideBySide table(r.numbers);
   table_3(table);
   table_4(table);
   table_5(table);

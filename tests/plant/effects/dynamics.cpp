@@ -12,15 +12,15 @@
 #include "plant/effects/presliding_memory.h"
 #include "plant/feed_axis.h"
 #include "tests/support/smooth_axis.h"
+#include "tests/support/tick.h"
 
 namespace feedtwin::plant {
 namespace {
 
+using test::count_m;
 using test::rad_per_m;
 using test::ReferenceBody;
-
-constexpr double tick_s = 1e-3;
-constexpr double count_m = 0.005 / 65536.0;
+using test::tick_s;
 
 FeedAxis axis_with(std::vector<EffectSetting> effects, Resolution resolution = one_count) {
   AxisParameters p = test::smooth_axis();

@@ -13,6 +13,7 @@
 #include "plant/feed_axis.h"
 #include "plant/parameter_table.h"
 #include "tests/support/any_effect.h"
+#include "tests/support/tick.h"
 #include "tests/support/typical_effects.h"
 
 namespace feedtwin::plant {
@@ -20,6 +21,7 @@ namespace {
 
 using test::any_setting;
 using test::shown;
+using test::tick_s;
 
 std::set<std::string> words(std::string_view text) {
   std::istringstream in{std::string(text)};
@@ -58,13 +60,12 @@ bool all_finite(const FeedAxis& axis, const AxisCommand& command) {
   return true;
 }
 
-AxisParameters axis_with(std::vector<EffectSetting> effects) {
+AxisParameters parameters_with(std::vector<EffectSetting> effects) {
   AxisParameters p = source_axis();
   p.effects = std::move(effects);
   return p;
 }
 
-constexpr double tick_s = 1e-3;
 /// What may stay open of the energy balance.
 struct Open {
   double share, absolute_J;
@@ -106,10 +107,10 @@ TEST(EveryEffect, RunsAtTheExtremesOfItsRangeWithItsEnergyBalanceClosed) {
       std::mt19937 random(seed);
       const auto setting = any_setting(entry, random);
       const double tick = seed % 3 == 0 ? 2.5e-4 : tick_s;
-      ASSERT_EQ(fault_of(axis_with({setting}), seed, 600, tick, open_at_extremes), "")
+      ASSERT_EQ(fault_of(parameters_with({setting}), seed, 600, tick, open_at_extremes), "")
           << shown(setting) << ", seed " << seed;
     }
-    ASSERT_EQ(fault_of(axis_with({test::typical_effect(entry)}), 5, 3000, tick_s, open_at_typical), "") << entry.id;
+    ASSERT_EQ(fault_of(parameters_with({test::typical_effect(entry)}), 5, 3000, tick_s, open_at_typical), "") << entry.id;
   }
 }
 
@@ -123,7 +124,7 @@ TEST(EveryEffect, RunsTogetherWithAllOthers) {
       effects.push_back(seed % 2 == 0 ? test::typical_effect(entry) : any_setting(entry, random));
       text += shown(effects.back()) + '\n';
     }
-    ASSERT_EQ(fault_of(axis_with(effects), seed, 400, tick_s, seed % 2 == 0 ? open_at_typical : not_asked), "")
+    ASSERT_EQ(fault_of(parameters_with(effects), seed, 400, tick_s, seed % 2 == 0 ? open_at_typical : not_asked), "")
         << text << "seed " << seed;
   }
 }
@@ -139,7 +140,7 @@ TEST(EveryEffect, IsGoneAtItsNeutralValue) {
     }
     const Resolution fine{
         .sliding = 6, .settling = 6, .reversing = 12};  // the same sub-steps with and without, whatever the effect asks for
-    FeedAxis with(axis_with({setting}), fine);
+    FeedAxis with(parameters_with({setting}), fine);
     FeedAxis without(source_axis(), fine);
     AnyCommand commands(7);
     // a stiff coupling is never quite rigid, and an extra factor of one rounds
@@ -158,7 +159,7 @@ TEST(EveryEffect, IsGoneAtItsNeutralValue) {
 
 TEST(EveryEffect, ChangesWhatIsSeenAtATypicalStrength) {
   for (const auto& entry : effect_registry()) {
-    FeedAxis with(axis_with({test::typical_effect(entry)}));
+    FeedAxis with(parameters_with({test::typical_effect(entry)}));
     FeedAxis without(source_axis());
     AnyCommand commands(3);
     bool differs = false;
@@ -183,7 +184,7 @@ TEST(EveryEffect, NeverGivesBackMoreThanItTook) {
     for (unsigned seed = 0; seed < 12; ++seed) {
       std::mt19937 random(seed);
       const auto setting = any_setting(entry, random);
-      FeedAxis axis(axis_with({setting}));
+      FeedAxis axis(parameters_with({setting}));
       AnyCommand commands(seed);
       double highest_J = 0.0;
       for (int i = 0; i < 2000; ++i) {
@@ -275,9 +276,9 @@ TEST(EveryEffect, OfTheContractIsRegistered) {
 }
 
 TEST(EveryEffect, IsRefusedWhenItsSettingDoesNotFit) {
-  EXPECT_THROW(FeedAxis(axis_with({{"warp_drive", {1.0}, {}}})), std::invalid_argument);
-  EXPECT_THROW(FeedAxis(axis_with({{"cogging", {1.0}, {}}})), std::invalid_argument);
-  EXPECT_THROW(FeedAxis(axis_with({{"learned_residual", {}, {{1.0}, {1.0}, {}, {1.0}, {}, {}, {}}}})),
+  EXPECT_THROW(FeedAxis(parameters_with({{"warp_drive", {1.0}, {}}})), std::invalid_argument);
+  EXPECT_THROW(FeedAxis(parameters_with({{"cogging", {1.0}, {}}})), std::invalid_argument);
+  EXPECT_THROW(FeedAxis(parameters_with({{"learned_residual", {}, {{1.0}, {1.0}, {}, {1.0}, {}, {}, {}}}})),
                std::invalid_argument);
 }
 

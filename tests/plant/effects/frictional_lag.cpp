@@ -8,13 +8,15 @@
 
 #include "plant/feed_axis.h"
 #include "tests/support/smooth_axis.h"
+#include "tests/support/tick.h"
 
 namespace feedtwin::plant {
 namespace {
 
 using test::rad_per_m;
+using test::tick_s;
 
-constexpr double tick_s = 1e-3, lag_s = 8e-3;
+constexpr double lag_s = 8e-3;
 
 /// What a body drags by beyond the axis's own friction, and what its film follows.
 struct Lagging {

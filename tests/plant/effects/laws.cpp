@@ -11,13 +11,13 @@
 #include "plant/feed_axis.h"
 #include "plant/parameter_table.h"
 #include "tests/support/smooth_axis.h"
+#include "tests/support/tick.h"
 
 namespace feedtwin::plant {
 namespace {
 
 using test::rad_per_m;
-
-constexpr double tick_s = 1e-3;
+using test::tick_s;
 
 AxisParameters long_axis(std::vector<EffectSetting> effects) {
   AxisParameters p = source_axis();

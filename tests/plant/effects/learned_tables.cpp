@@ -5,11 +5,12 @@
 
 #include "plant/feed_axis.h"
 #include "plant/parameter_table.h"
+#include "tests/support/tick.h"
 
 namespace feedtwin::plant {
 namespace {
 
-constexpr double tick_s = 0.001;
+using test::tick_s;
 
 FeedAxis axis_with_table(EffectSetting table) {
   auto axis = source_axis();

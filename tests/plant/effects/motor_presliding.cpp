@@ -7,13 +7,15 @@
 
 #include "plant/feed_axis.h"
 #include "tests/support/smooth_axis.h"
+#include "tests/support/tick.h"
 
 namespace feedtwin::plant {
 namespace {
 
-constexpr double tick_s = 1e-3;
+using test::tick_s;
+
 constexpr Directional coulomb_N{30.0, 15.0};
-constexpr double distance_m = 2e-6;
+constexpr double gone_m = 2e-6;
 
 AxisParameters axis_over(double over_m) {
   auto axis = test::smooth_axis();
@@ -33,7 +35,7 @@ struct Reference {
   double position_m = 0.0, velocity_m_per_s = 0.0, force_N = 0.0;
 
   void tick(double motor_N) {
-    constexpr double h_s = 1e-6, stiffness_N_per_m = 0.5 * (coulomb_N.pos + coulomb_N.neg) / distance_m;
+    constexpr double h_s = 1e-6, stiffness_N_per_m = 0.5 * (coulomb_N.pos + coulomb_N.neg) / gone_m;
     constexpr double mass_kg = test::screw_mass_kg + test::table_mass_kg;
     constexpr double viscous_Ns_per_m = test::screw_viscous_Ns_per_m + test::guide_viscous_Ns_per_m;
     for (int i = 0; i < 1000; ++i) {
@@ -46,7 +48,7 @@ struct Reference {
 };
 
 TEST(MotorPresliding, MovesAsAnIndependentIntegrationSays) {
-  FeedAxis axis(axis_over(distance_m), tenth_of_a_count), rigid(axis_over(0.0), tenth_of_a_count);
+  FeedAxis axis(axis_over(gone_m), tenth_of_a_count), rigid(axis_over(0.0), tenth_of_a_count);
   Reference reference;
   double off_m = 0.0, rigid_off_m = 0.0;
   for (int tick = 0; tick < 1000; ++tick) {
@@ -56,11 +58,11 @@ TEST(MotorPresliding, MovesAsAnIndependentIntegrationSays) {
     rigid_off_m = std::max(rigid_off_m, std::abs(rigid.step(command, tick_s).position_m - reference.position_m));
   }
   EXPECT_LT(off_m, 0.02 * rigid_off_m) << off_m << " of " << rigid_off_m;
-  EXPECT_GT(rigid_off_m, 10.0 * distance_m);
+  EXPECT_GT(rigid_off_m, 10.0 * gone_m);
 }
 
 TEST(MotorPresliding, IsCoulombFrictionOnceItSlides) {
-  FeedAxis axis(axis_over(distance_m)), rigid(axis_over(0.0));
+  FeedAxis axis(axis_over(gone_m)), rigid(axis_over(0.0));
   for (auto* one : {&axis, &rigid})
     for (int tick = 0; tick < 3000; ++tick) one->step({50.0 / test::rad_per_m, 0.0}, tick_s);
   EXPECT_NEAR(axis.state().velocity_m_per_s, rigid.state().velocity_m_per_s, 1e-9);

@@ -12,7 +12,7 @@
 namespace feedtwin::plant {
 namespace {
 
-constexpr double amplitude_N = 9.0, cycles_per_rev = 2.37, phase_rad = 0.6;
+constexpr double ripple_N = 9.0, cycles_per_rev = 2.37, phase_rad = 0.6;
 
 AxisParameters with(const EffectSetting& effect) {
   AxisParameters p = source_axis();
@@ -41,17 +41,17 @@ double apart_m(const AxisParameters& first, const AxisParameters& second) {
 }
 
 TEST(RevRippleOfFriction, IsAWaveOfFrictionAsLongAsAPartOfTheLead) {
-  const AxisParameters p = with(ripple(amplitude_N));
+  const AxisParameters p = with(ripple(ripple_N));
   const EffectSetting wave{"position_friction_wave",
-                           {amplitude_N / p.ball_screw.coulomb_N.pos, p.axis.lead_m / cycles_per_rev, phase_rad, 0.0, 0.0},
+                           {ripple_N / p.ball_screw.coulomb_N.pos, p.axis.lead_m / cycles_per_rev, phase_rad, 0.0, 0.0},
                            {}};
   EXPECT_LT(apart_m(p, with(wave)), 1e-6);
   EXPECT_GT(apart_m(p, with(ripple(0.0))), 1e-4);
 }
 
 TEST(RevRippleOfFriction, DragsBothWaysWhereARippleOfTheForceDrivesOneWay) {
-  const EffectSetting force{"rev_ripple", {amplitude_N, cycles_per_rev, phase_rad}, {}};
-  EXPECT_GT(apart_m(with(ripple(amplitude_N)), with(force)), 1e-4);
+  const EffectSetting force{"rev_ripple", {ripple_N, cycles_per_rev, phase_rad}, {}};
+  EXPECT_GT(apart_m(with(ripple(ripple_N)), with(force)), 1e-4);
 }
 
 }  // namespace

@@ -9,15 +9,17 @@
 #include "plant/effects/registry.h"
 #include "plant/feed_axis.h"
 #include "plant/parameter_table.h"
+#include "tests/support/tick.h"
 #include "tests/support/typical_effects.h"
 
 namespace feedtwin::plant {
 namespace {
 
-constexpr double tick_s = 1e-3, count_m = 0.005 / 65536.0;
+using test::count_m;
+using test::tick_s;
 
 /// Moves the source's axis to and fro over some revolutions, against its friction.
-double command_Nm(int tick) {
+double swept_Nm(int tick) {
   return 0.45 * std::sin(0.021 * tick) + 0.05 * std::sin(0.4 * tick + 1.0) + (tick % 97 < 10 ? 0.08 : 0.0);
 }
 
@@ -28,8 +30,8 @@ double counts_off(const std::vector<EffectSetting>& effects, Resolution own) {
   FeedAxis axis(p, own), fine(p, {.sliding = 24, .settling = 24, .reversing = 24});
   double worst_m = 0.0;
   for (int i = 0; i < 900; ++i) {
-    axis.step({command_Nm(i)}, tick_s);
-    fine.step({command_Nm(i)}, tick_s);
+    axis.step({swept_Nm(i)}, tick_s);
+    fine.step({swept_Nm(i)}, tick_s);
     worst_m = std::max(worst_m, std::abs(axis.state().position_m - fine.state().position_m));
   }
   return worst_m / count_m;

@@ -56,13 +56,13 @@ TEST(Machine, EnergyBalancesForAnyMachineAndAnyCommands) {
               .helix_rad = driver.uniform(0.0, 0.8),
               .runout_m = seed % 4 == 0 ? driver.uniform(0.0, 2e-5) : 0.0};
     p.regenerative = seed % 3 == 0;
-    const double tick_s = seed % 2 == 0 ? 1e-3 : 2.5e-4;
+    const double step_s = seed % 2 == 0 ? 1e-3 : 2.5e-4;
     Machine machine(p);
     double joules = 0.0, removed_m3 = 0.0;
     for (int tick = 0; tick < 3000; ++tick) {
-      const auto& s = machine.step(driver.next(), tick_s);
-      joules += s.power_W * tick_s;
-      removed_m3 += s.cut.removal_rate_m3_per_s * tick_s;
+      const auto& s = machine.step(driver.next(), step_s);
+      joules += s.power_W * step_s;
+      removed_m3 += s.cut.removal_rate_m3_per_s * step_s;
       ASSERT_TRUE(std::isfinite(s.power_W) && std::isfinite(s.cut.force_x_N) && std::isfinite(s.cut.torque_Nm)) << tick;
       ASSERT_GE(s.cut.removal_rate_m3_per_s, 0.0);
     }
@@ -70,7 +70,7 @@ TEST(Machine, EnergyBalancesForAnyMachineAndAnyCommands) {
     EXPECT_LT(e.balance_error(), 1e-9);  // asked for: 1e-3
     EXPECT_NEAR(joules / e.total_J(), 1.0, 1e-9);
     EXPECT_NEAR(removed_m3, e.removed_m3, 1e-15);
-    EXPECT_NEAR(e.time_s, 3000 * tick_s, 1e-9);
+    EXPECT_NEAR(e.time_s, 3000 * step_s, 1e-9);
     EXPECT_EQ(machine.clipped_inputs(), 0);
   }
 }

@@ -9,7 +9,7 @@
 namespace feedtwin::plant {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Aluminium 7075-T6, dry, carbide: Chin. J. Mech. Eng. 34 (2021), doi 10.1186/s10033-021-00536-9, table 5, its ref. 190.
 constexpr CuttingCoefficients aluminium{767.01e6, 168.8e6, 222.0e6, 27.7e3, 26.6e3, 0.7e3};

@@ -8,7 +8,7 @@
 namespace feedtwin::plant {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr BlockParameters block{-0.05, 0.05, -0.05, 0.05, 0.0};
 constexpr double R = 2e-3;
 

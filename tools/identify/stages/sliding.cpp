@@ -1,8 +1,8 @@
 #include "tools/identify/stages/sliding.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
+
+#include "tools/linear_systems.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -37,15 +37,14 @@ std::optional<SlidingFit> fit_sliding(std::span<const ComponentForces> runs,
   if (samples < 50.0 || normal.diagonal().minCoeff() <= 0.0) return std::nullopt;
   const Vector5 size = normal.diagonal().cwiseSqrt();
   const Matrix5 scaled = size.cwiseInverse().asDiagonal() * normal * size.cwiseInverse().asDiagonal();
-  const Eigen::LDLT<Matrix5> solver(scaled);
-  if (solver.info() != Eigen::Success || solver.rcond() < least_reciprocal_condition) return std::nullopt;
-  const Vector5 found = solver.solve(right.cwiseQuotient(size)).cwiseQuotient(size);
+  const auto inverse = inverse_if_conditioned(scaled, least_reciprocal_condition);
+  if (!inverse) return std::nullopt;
+  const Vector5 found = (*inverse * right.cwiseQuotient(size)).cwiseQuotient(size);
   const double variance = std::max(squares - found.dot(right), 0.0) / samples;
-  const Matrix5 inverse = scaled.inverse();
   return SlidingFit{found[0],
                     {found[1], found[2]},
                     {found[3], found[4]},
-                    std::sqrt(variance * inverse(0, 0)) / size[0],
+                    std::sqrt(variance * (*inverse)(0, 0)) / size[0],
                     std::sqrt(variance)};
 }
 
