@@ -35,7 +35,7 @@ std::optional<double> line_of_all_runs(const InverseModel& model, double above_H
 }  // namespace
 
 TrackSettings track_settings(const Case& data, const std::function<void(std::string_view)>& progress) {
-  TrackSettings settings{.force_jump_share = shown_jump_share(data, progress), .samples_a_row = 1};
+  TrackSettings settings{.jump_shares = shown_jump_shares(data, progress), .samples_a_row = 1};
   const InverseModel every_sample(make_tracks(data.fit, data.axis, settings), data.axis);
   const double sample_s = every_sample.tracks().front().sample_s;
   settings.samples_a_row = usual_samples_a_row;

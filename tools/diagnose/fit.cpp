@@ -17,6 +17,12 @@ Candidate without(const Candidate& model, std::size_t effect) {
   return less;
 }
 
+bool names_no_force(const Candidate& model) {
+  return std::ranges::none_of(model.effects, [&](const Active& active) {
+    return worth_naming(active, model.axis) && rests_on_force(*active.hypothesis);
+  });
+}
+
 bool has(const Candidate& model, const Hypothesis& hypothesis) {
   return std::ranges::any_of(model.effects, [&hypothesis](const Active& a) { return a.hypothesis == &hypothesis; });
 }

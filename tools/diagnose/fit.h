@@ -22,6 +22,8 @@ struct Candidate {
 
 [[nodiscard]] Candidate without(const Candidate& model, std::size_t effect);
 [[nodiscard]] bool has(const Candidate& model, const Hypothesis& hypothesis);
+/// Is none of its effects one that is worth a name and rests on a force?
+[[nodiscard]] bool names_no_force(const Candidate& model);
 
 struct Fit {
   Candidate model;

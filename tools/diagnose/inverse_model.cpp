@@ -157,9 +157,10 @@ Vector InverseModel::balance_N(const Equation& equation, std::size_t run, const 
   if (equation.motor != equation.screw || equation.screw != equation.guide) {
     Vector step_N = track.half_step_N;
     if (extra.drive_step_N.size() > 0 && step_N.size() > 0) step_N += extra.drive_step_N;
-    if (equation.motor != equation.screw) r += (equation.motor ? 1.0 : -1.0) * (screw_kg + table_kg) * per_mass * step_N;
+    if (equation.motor != equation.screw)
+      r += (equation.motor ? 1.0 : -1.0) * track.jump_shares.torque * (screw_kg + table_kg) * per_mass * step_N;
     if (equation.screw != equation.guide)
-      r += (equation.screw ? 1.0 : -1.0) * track.force_jump_share * table_kg * per_mass * step_N;
+      r += (equation.screw ? 1.0 : -1.0) * track.jump_shares.force * table_kg * per_mass * step_N;
   }
   if (equation.screw) r -= screw_kg * track.acceleration_m_per_s2 + base.screw_N;
   // in one equation with the motor both masses must see the same noise, or the quieter ruler draws the mass to itself

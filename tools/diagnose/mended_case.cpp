@@ -13,10 +13,12 @@ Case mended(Case data, std::vector<SetupFault>& faults, const std::function<void
   return data;
 }
 
-double shown_jump_share(const Case& data, const std::function<void(std::string_view)>& progress) {
-  const double share = force_jump_share(data.fit, data.axis);
-  if (share < 1.0) progress("the screw yields: the force sensor does not show the command's jumps at once");
-  return share;
+JumpShares shown_jump_shares(const Case& data, const std::function<void(std::string_view)>& progress) {
+  const JumpShares shares = jump_shares(data.fit, data.axis);
+  if (shares.force < 1.0) progress("the screw yields: the force sensor does not show the command's jumps at once");
+  if (shares.torque < 1.0)
+    progress("the screw yields: at once the torque sensor shows what the screw's own inertia takes of the command's jumps");
+  return shares;
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -15,6 +15,6 @@ namespace feedtwin::tools::diagnosis {
 
 /// How much of a jump of the command the force sensor shows at once, of what it would on one body; less where the screw
 /// yields.
-[[nodiscard]] double shown_jump_share(const Case& data, const std::function<void(std::string_view)>& progress);
+[[nodiscard]] JumpShares shown_jump_shares(const Case& data, const std::function<void(std::string_view)>& progress);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -27,6 +27,8 @@ struct Structure {
   [[nodiscard]] double structured_N() const;
   /// So much is `unknown` beside names too, where they leave it.
   [[nodiscard]] bool much() const;
+  /// So much is `unknown`. @param nothing_named that rests on a force: all of it is unexplained then
+  [[nodiscard]] bool is_unknown(bool nothing_named) const;
 };
 
 class RepeatableStructure {

@@ -244,7 +244,7 @@ std::vector<Track> make_tracks(const std::vector<Recording>& recordings, const p
   for (const auto& recording : recordings) {
     tracks.push_back(make_track(recording, axis));
     tracks.back().run = tracks.size() - 1;
-    tracks.back().force_jump_share = settings.force_jump_share;
+    tracks.back().jump_shares = settings.jump_shares;
     tracks.back().samples_a_row = settings.samples_a_row;
   }
   return tracks;

@@ -40,6 +40,11 @@ struct MeterWindows {
   std::vector<double> power_W;
 };
 
+/// How much of the command's jump each sensor shows at once, of what one body would show it.
+struct JumpShares {
+  double torque = 1.0, force = 1.0;
+};
+
 struct Track {
   std::string name;     ///< of the file
   std::size_t run = 0;  ///< among those of the case
@@ -63,8 +68,8 @@ struct Track {
   Vector dwell_s;           ///< length of the last standstill, from its end on
   /// Command that sets in at the sample beyond its mean about it: the sensors read with it, the balance without.
   Vector half_step_N;
-  double force_jump_share = 1.0;  ///< of that jump, as one body would show it to the force sensor
-  Vector torque_sensor_N;         ///< empty where not recorded; likewise below
+  JumpShares jump_shares;
+  Vector torque_sensor_N;  ///< empty where not recorded; likewise below
   Vector force_sensor_N;
   Vector slip_m;  ///< linear scale less motor encoder
   MeterWindows meter;
@@ -78,7 +83,7 @@ struct Track {
 [[nodiscard]] Track make_track(const Recording& recording, const plant::AxisParameters& axis);
 /// What a case's runs have in common.
 struct TrackSettings {
-  double force_jump_share = 1.0;
+  JumpShares jump_shares;
   Index samples_a_row = usual_samples_a_row;
 };
 /// Of the runs of a case, each with its place among them.

@@ -84,15 +84,7 @@ const char* verdict_of(const Diagnosis& result) {
 bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const Candidate& final,
                           const std::function<void(std::string_view)>& progress) {
   constexpr double unexplained = 0.1;
-  // of 62 made cases with nothing hidden none had more than 6 % of what was left over in structure; two outside the
-  // catalogue that were missed had two thirds and more
-  constexpr double most_of_it = 0.6, least_of_most_N = 0.3;
-  // where nothing is named all of it is unexplained: of 800 made cases with nothing hidden those with 14 % and more had at
-  // most 0.14 N of it; of a hundred outside the catalogue the least had 0.17 N and 16 %, or 13 %, which is given up
-  constexpr double where_nothing_is_named = least_share_of_much, least_where_nothing_is_named_N = 0.155;
-  const bool nothing_named = std::ranges::none_of(final.effects, [&](const Active& active) {
-    return worth_naming(active, final.axis) && rests_on_force(*active.hypothesis);
-  });
+  const bool nothing_named = names_no_force(final);
   const auto& structure_of = fitter.structure();
   const Structure before = structure_of.remaining(found.recalibrated.residual);
   const Vector residual = fitter.model().residual(final.axis, final.effects);
@@ -111,11 +103,8 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
   if (nothing_named && on_the_table(found.recalibrated.residual) && on_the_table(residual) &&
       !force_sensor_shows_more(fitter.model(), final))
     return true;
-  const bool enough = after.much() || (after.share > most_of_it && after.structured_N() > least_of_most_N * after.newton) ||
-                      (nothing_named && after.share > where_nothing_is_named &&
-                       after.structured_N() > least_where_nothing_is_named_N * after.newton);
   return (only_a_bite(after, squares) && !explains_most(found)) ||
-         (enough && squares.share_left() > unexplained && !certain(found, after, squares));
+         (after.is_unknown(nothing_named) && squares.share_left() > unexplained && !certain(found, after, squares));
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -17,7 +17,7 @@ double share_of(const plant::AxisParameters& truth) {
   std::vector<tools::Recording> runs;
   for (const char* motion : {"sine", "triangle"})
     runs.push_back(tests::make_recording(truth, {.motion = motion, .duration_s = 6.0, .sensors = true}));
-  return force_jump_share(runs, nominal);
+  return jump_shares(runs, nominal).force;
 }
 
 plant::AxisParameters with(const plant::EffectSetting& effect) {
@@ -55,6 +55,35 @@ TEST(CommandJump, ALateSensorIsNoYieldingScrew) {
 
 TEST(CommandJump, ALateCommandIsNoYieldingScrew) {
   EXPECT_EQ(share_of(with(tests::effect("input_delay", {{"delay_s", 8e-4}}))), 1.0);
+}
+
+/// Of a table as heavy as motor and screw, without a force sensor.
+double torque_share_of(const std::vector<plant::EffectSetting>& effects) {
+  auto truth = plant::source_axis();
+  truth.guide_mass_kg = 90.0;
+  auto nominal = truth;
+  nominal.guide_mass_kg *= 1.04;
+  truth.effects = effects;
+  std::vector<tools::Recording> runs;
+  for (const char* motion : {"sine", "triangle"})
+    runs.push_back(tests::make_recording(truth, {.motion = motion, .duration_s = 6.0, .sensors = true}));
+  for (auto& run : runs) run.channels.erase("force_sensor_N");
+  return jump_shares(runs, nominal).torque;
+}
+
+TEST(CommandJump, BehindAYieldingScrewTheTorqueSensorShowsWhatTheScrewsInertiaTakes) {
+  // of the jump 1.5 / 5.5 at once; of one body, whose table has 90 kg at 5 mm a turn, 7.2 / 11.2
+  EXPECT_NEAR(torque_share_of({tests::effect("screw_compliance", {{"stiffness_N_per_m", 1e8}})}), 0.425, 0.01);
+}
+
+TEST(CommandJump, ARigidHeavyTableShowsItWhole) {
+  EXPECT_EQ(torque_share_of({}), 1.0);
+}
+
+TEST(CommandJump, ALateCommandOrSensorIsNoYieldingScrewForTheTorqueSensor) {
+  EXPECT_EQ(torque_share_of({tests::effect("input_delay", {{"delay_s", 8e-4}})}), 1.0);
+  EXPECT_EQ(torque_share_of({tests::effect("current_loop_lag", {{"time_constant_s", 1e-3}})}), 1.0);
+  EXPECT_EQ(torque_share_of({tests::effect("channel_skew", {{"torque_sensor_delay_s", 2e-3}})}), 1.0);
 }
 
 }  // namespace

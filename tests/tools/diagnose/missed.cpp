@@ -131,11 +131,15 @@ TEST(LeavesStructure, WhereWhatGoesBringsBackMoreThanAName) {
     structure.remainder_N = remainder_N, structure.share = std::pow(structured_N / remainder_N, 2);
     return structure;
   };
-  EXPECT_TRUE(leaves_structure(left(0.9, 3.5), left(1.9, 4.3))) << "a screw that warms up";
-  EXPECT_TRUE(leaves_structure(left(0.58, 1.8), left(0.87, 2.1))) << "friction that lags";
-  EXPECT_FALSE(leaves_structure(left(0.77, 1.3), left(0.76, 1.3))) << "a bite of something else";
-  EXPECT_FALSE(leaves_structure(left(0.01, 0.4), left(0.3, 0.5))) << "too little to be unknown";
-  EXPECT_FALSE(leaves_structure(left(0.3, 6.0), left(1.0, 6.0))) << "a trace of what is left over";
+  EXPECT_TRUE(leaves_structure(20.0, left(0.9, 3.5), left(1.9, 4.3))) << "a screw that warms up";
+  EXPECT_TRUE(leaves_structure(20.0, left(0.58, 1.8), left(0.87, 2.1))) << "friction that lags";
+  EXPECT_FALSE(leaves_structure(20.0, left(0.77, 1.3), left(0.76, 1.3))) << "a bite of something else";
+  EXPECT_FALSE(leaves_structure(20.0, left(0.01, 0.4), left(0.3, 0.5))) << "too little to be unknown";
+  EXPECT_FALSE(leaves_structure(20.0, left(0.3, 6.0), left(1.0, 6.0))) << "a trace of what is left over";
+  EXPECT_TRUE(leaves_structure(8.0, left(0.9, 3.5), left(1.9, 4.3))) << "a cable's spring, to the closed loop half a colour";
+  EXPECT_TRUE(leaves_structure(8.0, left(0.01, 0.24), left(0.21, 0.34), true)) << "the only name, of a small axis";
+  EXPECT_FALSE(leaves_structure(8.0, left(0.01, 0.24), left(0.21, 0.34))) << "beside other names";
+  EXPECT_FALSE(leaves_structure(1.0, left(0.9, 3.5), left(1.9, 4.3))) << "as likely without";
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "tests/support/made_case.h"
 
 namespace feedtwin {
@@ -102,6 +105,42 @@ TEST(AskHowStiff, WhatTheFitHoldsBesideTheStiffnessStaysAsItWasFitted) {
   ASSERT_EQ(fit.model.effects.size(), 2U) << "a screw that yields";
   EXPECT_EQ(fit.model.effects[0].q, before.effects[0].q);
   EXPECT_EQ(fit.model.axis.ball_screw.coulomb_N.pos, before.axis.ball_screw.coulomb_N.pos);
+}
+
+/// The same by its torque sensor alone, on a table as heavy as motor and screw. @param named by the search
+/// @return compliance, m/N; 0: taken for rigid
+double compliance_by_torque_sensor(const std::vector<plant::EffectSetting>& effects, std::vector<Active> named = {}) {
+  auto truth = plant::source_axis(), nominal = truth;
+  truth.guide_mass_kg = nominal.guide_mass_kg = 90.0;
+  truth.effects = effects;
+  tools::Case data = tests::short_case(truth, nominal);
+  tests::MadeRun run{.motion = "s_curve", .duration_s = 3.0, .torque_noise_Nm = 5e-4};
+  run.settings = {.amplitude_m = 0.02, .speed_m_per_s = 0.1, .acceleration_m_per_s2 = 8.0, .jerk_m_per_s3 = 2000.0};
+  data.fit = {tests::make_recording(truth, run)};
+  for (const char* other : {"scale_position_m", "force_sensor_N"}) data.fit[0].channels.erase(other);
+  const InverseModel model(make_tracks(data.fit, nominal), nominal);
+  const Fitter fitter(model, nominal);
+  SearchResult found;
+  found.whitening = fitter.colour_of(model.residual(nominal, {}));
+  Fit fit = fitter.fit_with_colour({nominal, std::move(named)}, found.whitening, 2, 6);
+  const ForwardModel forward(data.fit, data);
+  (void)ask_how_stiff(forward, fitter, found, fit, [](std::string_view) {});
+  const auto screw = std::ranges::find(fit.model.effects, &hypothesis("screw_compliance"), &Active::hypothesis);
+  return screw == fit.model.effects.end() ? 0.0 : screw->q[0];
+}
+
+// A tenth of critical damping, at this mass five times what the plant's preset has.
+TEST(AskHowStiff, ByTheTorqueSensorAloneAndDampedAsScrewsAre) {
+  const double compliance = compliance_by_torque_sensor(
+      {tests::effect("screw_compliance", {{"stiffness_N_per_m", 1.3e8}, {"damping_Ns_per_m", 1.5e4}})});
+  EXPECT_NEAR(1.0 / compliance, 1.3e8, 0.05 * 1.3e8);
+}
+
+TEST(AskHowStiff, ARigidHeavyTableAndALaggingDriveAreNoYieldingScrew) {
+  EXPECT_EQ(compliance_by_torque_sensor({}), 0.0);
+  EXPECT_EQ(compliance_by_torque_sensor({tests::effect("input_delay", {{"delay_s", 1.5e-3}})},
+                                        {{&hypothesis("input_delay"), {1.4e-3}}}),
+            0.0);
 }
 
 }  // namespace

@@ -31,7 +31,10 @@ inline constexpr double clearly_nearer = 10.0;
 /// Does structure that none of the catalogue explains come back where a name goes? It is missed then, however few nats that
 /// is to the closed loop, which takes what is slow for the colour of its noise. Of the names that went and left a case
 /// unknown three were true, and left 2.2 to 8.6 times as much (N^2) as there had been with them; three false ones 1.0 times.
-[[nodiscard]] bool leaves_structure(const Structure& with, const Structure& without);
+/// @param missed_nats by the closed loop, which must not be as likely without it
+/// @param nothing_named where it goes: less is `unknown` then
+[[nodiscard]] bool leaves_structure(double missed_nats, const Structure& with, const Structure& without,
+                                    bool nothing_named = false);
 
 /// Beside the name that is missed most: no law here is that of the machine to the last per cent, and what a strong one
 /// leaves over looks like a weak one that any smooth change of friction is.

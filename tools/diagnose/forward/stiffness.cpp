@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,9 @@ constexpr std::array compliances_m_per_N{2e-9,   2.6e-9, 3.4e-9, 4.4e-9, 5.7e-9,
 constexpr double other_than_rigid_deviations = 1.5;
 
 bool can_be_told(const Fitter& fitter, const Candidate& model) {
-  const bool force_recorded = fitter.model().tracks().front().force_sensor_N.size() > 0;
-  return force_recorded && !has(model, hypothesis("screw_compliance")) && !has(model, hypothesis("backlash"));
+  const Track& track = fitter.model().tracks().front();
+  const bool sensor_beyond_motor = track.force_sensor_N.size() > 0 || track.torque_sensor_N.size() > 0;
+  return sensor_beyond_motor && !has(model, hypothesis("screw_compliance")) && !has(model, hypothesis("backlash"));
 }
 
 /// Compliances to be asked for: with a scale the one that it shows.
@@ -32,6 +34,19 @@ std::vector<double> asked_of(const Fitter& fitter, const Whitening& whitening, C
   return {fitter.fit(on_screw, whitening, iterations).model.effects.back().q.front()};
 }
 
+/// At rest against what swings on it, kg: motor and screw behind, the table before it.
+double swinging_kg(const plant::AxisParameters& axis) {
+  const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
+  const double behind_kg = (axis.motor.inertia_kgm2 + axis.ball_screw_inertia_kgm2) * rad_per_m * rad_per_m;
+  return behind_kg * axis.guide_mass_kg / (behind_kg + axis.guide_mass_kg);
+}
+
+/// Dampings to be asked for with a stiffness: as the plant's preset has it, and a tenth of critical, more on a heavy table.
+std::array<double, 2> dampings_Ns_per_m(const plant::AxisParameters& axis, double compliance_m_per_N) {
+  constexpr double of_critical = 0.1;
+  return {screw_damping_Ns_per_m, of_critical * 2.0 * std::sqrt(swinging_kg(axis) / compliance_m_per_N)};
+}
+
 /// The model on the screw under which the runs are likeliest with its numbers as they are; and by how much.
 std::pair<Candidate, double> on_likeliest_screw(const ForwardModel& forward, const Fitter& fitter,
                                                 const Whitening& whitening, const Candidate& model) {
@@ -40,9 +55,11 @@ std::pair<Candidate, double> on_likeliest_screw(const ForwardModel& forward, con
   double nats = 0.0;
   other.effects.push_back({&hypothesis("screw_compliance"), {0.0, std::log(screw_damping_Ns_per_m)}});
   for (const double compliance : asked_of(fitter, whitening, other)) {
-    other.effects.back().q.front() = compliance;
-    const double more = likelihood(forward, extended(other)).total() - rigid;
-    if (more > nats) nats = more, best = other;
+    for (const double damping : dampings_Ns_per_m(model.axis, compliance)) {
+      other.effects.back().q = {compliance, std::log(damping)};
+      const double more = likelihood(forward, extended(other)).total() - rigid;
+      if (more > nats) nats = more, best = other;
+    }
   }
   return {best, nats};
 }

@@ -1,7 +1,7 @@
 #pragma once
-// How stiff the screw is, where a force sensor is recorded: no screw is rigid, and the table swings on it after every jump
-// of the command. The inverse model has one body where no scale shows the other, and calls such a sensor late; with a scale
-// it takes a screw that yields by less than the scale's step for a rigid one.
+// How stiff the screw is, where a force or torque sensor is recorded: no screw is rigid, and the table swings on it after
+// every jump of the command. The inverse model has one body where no scale shows the other, and calls such a sensor late;
+// with a scale it takes a screw that yields by less than the scale's step for a rigid one.
 
 #include <functional>
 #include <optional>
