@@ -34,7 +34,7 @@ std::vector<double> asked_of(const Fitter& fitter, const Whitening& whitening, C
   return {fitter.fit(on_screw, whitening, iterations).model.effects.back().q.front()};
 }
 
-/// At rest against what swings on it, kg: motor and screw behind, the table before it.
+/// Reduced mass of motor and screw against the table, kg: what swings on the screw.
 double swinging_kg(const plant::AxisParameters& axis) {
   const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
   const double behind_kg = (axis.motor.inertia_kgm2 + axis.ball_screw_inertia_kgm2) * rad_per_m * rad_per_m;
@@ -43,6 +43,7 @@ double swinging_kg(const plant::AxisParameters& axis) {
 
 /// Dampings to be asked for with a stiffness: as the plant's preset has it, and a tenth of critical, more on a heavy table.
 std::array<double, 2> dampings_Ns_per_m(const plant::AxisParameters& axis, double compliance_m_per_N) {
+  // a screw of 0.11 was 1612 nats worse than a rigid one with 3000 N s/m, and 2078 better with 25000
   constexpr double of_critical = 0.1;
   return {screw_damping_Ns_per_m, of_critical * 2.0 * std::sqrt(swinging_kg(axis) / compliance_m_per_N)};
 }
