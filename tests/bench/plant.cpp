@@ -66,7 +66,7 @@ double closed_loop_error_counts(Axis axis) {
     const double error_m = std::abs(axis.state()[golden::position] - trace().position_m[static_cast<std::size_t>(i)]);
     worst_m = std::isfinite(error_m) ? std::max(worst_m, error_m) : HUGE_VAL;
   }
-  return worst_m / golden::encoder_count_m;
+  return worst_m / test::count_m;
 }
 
 template <class Make>

@@ -3,11 +3,12 @@
 // swings in pre-sliding, speeds to 0.26 m/s. It starts at rest and its acceleration never jumps. The position loop takes the
 // unquantised position: a quantised one would drive any two right integrators apart by its own flipped counts.
 
+#include "tests/support/tick.h"
+
 namespace feedtwin::golden {
 
-inline constexpr double tick_s = 1e-3;
+using test::tick_s;
 inline constexpr int golden_ticks = 10000;
-inline constexpr double encoder_count_m = 0.005 / 65536.0;
 
 [[nodiscard]] double golden_reference_m(double time_s);
 /// Added to the controller's force: swings within pre-sliding and the motor's Coulomb friction during the dwell.

@@ -45,8 +45,7 @@ FeedAxis run_plant(Resolution resolution, std::vector<double>& error_counts) {
   for (std::size_t i = 0; i < golden::golden_ticks; ++i) {
     const double force_N = controller.force_N(static_cast<int>(i), axis.signals().position_m);
     axis.step({.torque_Nm = force_N / axis.model().transmission_rad_per_m}, golden::tick_s);
-    error_counts.push_back(std::abs(axis.signals().position_m - by_cvode().states[i][golden::position]) /
-                           golden::encoder_count_m);
+    error_counts.push_back(std::abs(axis.signals().position_m - by_cvode().states[i][golden::position]) / test::count_m);
   }
   return axis;
 }
@@ -74,8 +73,8 @@ TEST(Golden, CvodeAgreesWithRungeKuttaAtHalfAMicrosecond) {
     axis.tick(controller.force_N(static_cast<int>(i), axis.state()[golden::position]), golden::tick_s);
     worst = std::max(worst, std::abs(axis.state()[golden::position] - by_cvode().states[i][golden::position]));
   }
-  EXPECT_LT(worst / golden::encoder_count_m, 0.005);
-  printf("  references differ by at most %.5f counts\n", worst / golden::encoder_count_m);
+  EXPECT_LT(worst / test::count_m, 0.005);
+  printf("  references differ by at most %.5f counts\n", worst / test::count_m);
 }
 
 TEST(Golden, WithinOneCount) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string_view>
 
 #include "tools/diagnose/fit.h"
 
@@ -30,21 +31,31 @@ double left_behind_a_screw_that_yields(const std::vector<Recording>& runs, const
   return left_on_the_table(model, quickly_fitted(model, start));
 }
 
-double force_share(const std::vector<Recording>& runs, const plant::AxisParameters& nominal) {
+/// The recordings read as one body with sensors that are late.
+struct OneBody {
+  InverseModel model;
+  Fit fit;
+
+  OneBody(const std::vector<Recording>& runs, const plant::AxisParameters& nominal)
+      : model(make_tracks(runs, nominal), nominal),
+        fit(quickly_fitted(model, {nominal, {{&hypothesis("channel_skew"), {0.0, 0.0}}}})) {}
+
+  [[nodiscard]] double torque_late_s() const { return fit.model.effects.front().q[0]; }
+  [[nodiscard]] double force_late_s() const { return fit.model.effects.front().q[1]; }
+  [[nodiscard]] double half_tick_s() const { return 0.5 * model.tracks().front().sample_s; }
+};
+
+double force_share(const OneBody& one, const std::vector<Recording>& runs, const plant::AxisParameters& nominal) {
   constexpr double least_s = 3e-4, most_s = 1.45e-3;  // more is a late sensor
   constexpr double beyond_torque_s = 2.5e-4;          // a late command makes both sensors look late
   // of 55 that yield, of five simulators, a late sensor left 0.92 (N rms) and more of what the yielding left; of two that
   // were late 0.77 and 0.84, of a third 0.97
   constexpr double late_leaves_less = 0.88;
-  if (runs.empty() || !runs.front().has(channel::force_sensor_N)) return 1.0;
-  const InverseModel one_body(make_tracks(runs, nominal), nominal);
-  const auto& skew = hypothesis("channel_skew");
-  const Fit fit = quickly_fitted(one_body, {nominal, {{&skew, {0.0, 0.0}}}});
-  const auto& late_s = fit.model.effects.front().q;
-  if (late_s[1] < std::max(least_s, late_s[0] + beyond_torque_s) || late_s[1] > most_s) return 1.0;
-  const double half_tick_s = 0.5 * one_body.tracks().front().sample_s;
-  const double share = std::max(-1.0, 1.0 - late_s[1] / half_tick_s);
-  const double late = left_on_the_table(one_body, fit), yields = left_behind_a_screw_that_yields(runs, {nominal, {}}, share);
+  const double late_s = one.force_late_s();
+  if (late_s < std::max(least_s, one.torque_late_s() + beyond_torque_s) || late_s > most_s) return 1.0;
+  const double share = std::max(-1.0, 1.0 - late_s / one.half_tick_s());
+  const double late = left_on_the_table(one.model, one.fit),
+               yields = left_behind_a_screw_that_yields(runs, {nominal, {}}, share);
   return late < late_leaves_less * late_leaves_less * yields ? 1.0 : share;
 }
 
@@ -55,27 +66,28 @@ double torque_share_of_a_yielding_screw(const plant::AxisParameters& axis) {
   return screw / (motor + screw) * (motor + screw + table) / (screw + table);
 }
 
-/// By its own word: as late as it looks, read as one body, where the jump moves motor and screw alone.
-bool torque_sensor_shows_a_yielding_screw(const std::vector<Recording>& runs, const plant::AxisParameters& nominal,
-                                          double share) {
-  // where it is 0.85 and more a sensor looks as late for other reasons: 10 of 28 records
-  constexpr double most_share = 0.8;
-  // two behind a yielding screw 1.05 and 1.3 times as late as that looks, one with a lag of 50 us too 3.9
+/// As late as the torque sensor looks, read as one body, where the jump moves motor and screw alone.
+bool as_late_as_behind_a_yielding_screw(const OneBody& one, double share) {
+  // two behind a yielding screw looked 1.05 and 1.3 times as late, one with a lag of 50 us too 3.9
   constexpr double least_of_late = 0.5, most_of_late = 1.6;
-  if (runs.empty() || !runs.front().has(channel::torque_sensor_Nm) || share > most_share) return false;
-  const InverseModel one_body(make_tracks(runs, nominal), nominal);
-  const Fit fit = quickly_fitted(one_body, {nominal, {{&hypothesis("channel_skew"), {0.0, 0.0}}}});
-  const double late_s = fit.model.effects.front().q[0];
-  const double looks_late_s = (1.0 - share) * 0.5 * one_body.tracks().front().sample_s;
-  return late_s > least_of_late * looks_late_s && late_s < most_of_late * looks_late_s;
+  const double looks_late_s = (1.0 - share) * one.half_tick_s();
+  return one.torque_late_s() > least_of_late * looks_late_s && one.torque_late_s() < most_of_late * looks_late_s;
 }
 
 }  // namespace
 
 JumpShares jump_shares(const std::vector<Recording>& runs, const plant::AxisParameters& nominal) {
-  const double force = force_share(runs, nominal), torque = torque_share_of_a_yielding_screw(nominal);
-  const bool yields = force < 1.0 || torque_sensor_shows_a_yielding_screw(runs, nominal, torque);
-  return {.torque = yields ? torque : 1.0, .force = force};
+  // where it is 0.85 and more a sensor looks as late for other reasons: 10 of 28 records
+  constexpr double most_that_tells = 0.8;
+  const double behind = torque_share_of_a_yielding_screw(nominal);
+  const auto recorded = [&](std::string_view sensor) { return !runs.empty() && runs.front().has(sensor); };
+  const bool by_force = recorded(channel::force_sensor_N),
+             by_torque = recorded(channel::torque_sensor_Nm) && behind < most_that_tells;
+  if (!by_force && !by_torque) return {};
+  const OneBody one(runs, nominal);
+  const double force = by_force ? force_share(one, runs, nominal) : 1.0;
+  const bool yields = force < 1.0 || (by_torque && as_late_as_behind_a_yielding_screw(one, behind));
+  return {.torque = yields ? behind : 1.0, .force = force};
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -210,8 +210,7 @@ const std::vector<std::string>& free_choices() {
       "Cutting coefficients of the order of an engineering plastic: K_tc 160, K_rc 50 N/mm^2, K_te 1.1, K_re 1.0 N/mm: 1 W "
       "at the "
       "spindle, between what the losses of cases A and B leave.",
-      "x axis: Table 2. y axis: Table 2 with 8 kg more, the slide that it carries. z: follows exactly, no drive "
-      "model.",
+      "x axis: Table 2. y axis: Table 2 with 8 kg more, the slide that it carries. z: follows exactly, no drive model.",
       "Loop gains K_v 150 1/s, K_p 40 kN s/m, K_i 4 MN/m, friction and inertia fed forward; encoder 65536 counts a "
       "revolution; 1 kHz.",
       "Interpolator: 1 m/s^2, 50 m/s^3, corners rounded within 5 um.",

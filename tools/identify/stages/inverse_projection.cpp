@@ -1,11 +1,11 @@
 #include "tools/identify/stages/inverse_projection.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "tools/identify/lanes/dispatch.h"
-#include "tools/linear_systems.h"
 
 namespace feedtwin::tools {
 namespace {
@@ -61,10 +61,10 @@ InverseProjection::Point InverseProjection::project(const Vector3d& x) const {
   const Eigen::Matrix<double, 5, 1> size = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::Matrix<double, 5, 5> scaled = size.asDiagonal() * normal * size.asDiagonal();
   scaled.diagonal().array() += 1e-12;
-  const Eigen::Matrix<double, 5, 5> inverse = inverse_of(scaled);
+  const auto solver = scaled.ldlt();
   Point point;
   point.at = x;
-  point.linear = size.cwiseProduct(inverse * size.cwiseProduct(right));
+  point.linear = size.cwiseProduct(solver.solve(size.cwiseProduct(right)));
   // columns: what the model gains by each of the three, and the residual; then what the five linear numbers take of them
   Eigen::Matrix<double, columns, 4> made = Eigen::Matrix<double, columns, 4>::Zero();
   for (Index k = 0; k < 3; ++k) {
@@ -78,7 +78,7 @@ InverseProjection::Point InverseProjection::project(const Vector3d& x) const {
   Eigen::Matrix<double, 5, 4> on_regressors;
   for (Index i = 0; i < 5; ++i) on_regressors.row(i) = size[i] * made_products.row(regressors.at(std::size_t(i)));
   on_regressors.col(3).setZero();  // but for rounding
-  const Eigen::Matrix4d left = made.transpose() * made_products - on_regressors.transpose() * inverse * on_regressors;
+  const Eigen::Matrix4d left = made.transpose() * made_products - on_regressors.transpose() * solver.solve(on_regressors);
   point.cost = left(3, 3);
   point.gradient = left.topRightCorner<3, 1>();
   point.curvature = left.topLeftCorner<3, 3>();
