@@ -127,6 +127,8 @@ struct Hypothesis {
   /// Least strength to be named: what it leaves over, rms, by the rms of what is left over with it.
   double least_strength = 0.2;
   double least_gain = 0.0;  ///< fall of the cost, where that must be more than any hypothesis's
+  double (*least_gain_of)(std::span<const double> q) =
+      nullptr;  ///< and where its size asks for it, whatever else speaks for it
   /// Of what leaves nothing over, since the numbers do all that it does: fall of the cost, and of the numbers' own part in
   /// it, that name it. Of 300 made cases with nothing hidden the most was 10 of a sensor's gain, 39 of a payload that is a
   /// tenth of the table, 62 of an offset.

@@ -84,6 +84,12 @@ bool of_one_event(const InverseModel& model, const Fit& fit, const Hypothesis& h
   return has_a_size;
 }
 
+/// Does it gain what its size asks for?
+bool gains_for_its_size(const Fit& with, const Hypothesis& hypothesis, double gain) {
+  const auto own = std::ranges::find(with.model.effects, &hypothesis, &Active::hypothesis);
+  return hypothesis.least_gain_of == nullptr || own == with.model.effects.end() || gain > hypothesis.least_gain_of(own->q);
+}
+
 double prior_part(const Fit& fit) {
   return fit.white.tail(fit.base_count()).squaredNorm();
 }
@@ -147,7 +153,7 @@ Verdict judged(const Fitter& fitter, const Fit& with, const Fit& without, const 
   const bool impossible_otherwise = hypothesis.absorbed && std::min(v.gain, v.surprise) > bar.absorbed_gain &&
                                     (v.strength > bar.absorbed_strength || v.surprise > bar.sure_surprise);
   v.far_off = std::min(v.gain, v.surprise) > hypothesis.far_off_gain;
-  v.enough = strong || impossible_otherwise || v.far_off;
+  v.enough = (strong || impossible_otherwise || v.far_off) && gains_for_its_size(with, hypothesis, v.gain);
   return v;
 }
 
@@ -168,7 +174,9 @@ Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without,
   for (const double g : gains) told.gain += std::max(g, most_lost);
   told.folds = static_cast<std::size_t>(std::ranges::count_if(gains, [](double g) { return g > 1.0; }));
   const std::size_t may_rest = hypothesis.first_window > 0 ? 1 : 0;  // folds that a process does not act in
-  told.everywhere = told.folds + may_rest >= bar.folds && told.gain > 0.8 * verdict.gain;
+  // the folds hold rows alone, not what the numbers' own tolerances have of the gain
+  const double gain_in_rows = verdict.gain - std::max(0.0, verdict.surprise);
+  told.everywhere = told.folds + may_rest >= bar.folds && told.gain > 0.8 * gain_in_rows;
   const bool has_shape = std::ranges::any_of(hypothesis.parameters, [](const auto& p) { return p.kind == Kind::shape; });
   const bool of_a_moment = told.gain <= 0.0 && !has_shape;  // an amplitude that the others do not foretell where it matters
   const bool nearly_all = 4 * told.folds >= 3 * bar.folds && !of_a_moment;

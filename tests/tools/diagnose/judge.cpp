@@ -84,6 +84,24 @@ TEST_F(Judged, AHypothesisMayAskForMoreThanTheOthers) {
   }
 }
 
+// One that closed loop cannot miss enough leads astray what is asked beside it: the few mm/s about a reversal suit it
+// whatever friction does there.
+TEST_F(Judged, ACompensationAboutAReversalMustGainWhatItIsToBeMissedBy) {
+  Fit with, without;
+  with.residual = Vector::Constant(model.rows(), 1.0);
+  without.residual = Vector::Constant(model.rows(), 3.0);
+  with.white = without.white = Vector::Zero(model.rows());
+  const auto& compensation = hypothesis("hidden_friction_compensation");
+  const auto told = [&](double speed_m_per_s, double gain) {
+    with.model.effects = {{&compensation, {0.004, speed_m_per_s, 0.0, 1.0}}};
+    without.cost = with.cost + gain;
+    return judged(fitter, with, without, compensation, Bar{}).enough;
+  };
+  EXPECT_FALSE(told(1.8e-3, 1669.0));
+  EXPECT_TRUE(told(1.8e-3, 1956.0));
+  EXPECT_TRUE(told(4.5e-3, 300.0));
+}
+
 TEST_F(Judged, AFitGoesOnWhileItFallsFast) {
   const Whitening whitening = Whitening::estimate(model, model.residual(axis, {}));
   Candidate start{axis, {}};

@@ -70,6 +70,25 @@ TEST(OnUnseen, OneEventHoldsWhereItIsNearlyAllThatWasLeftOrStrikesHard) {
   EXPECT_FALSE(on_unseen(model, with, without, hypothesis("backlash"), verdict, Bar{}).holds);
 }
 
+// What the numbers' own tolerances gain stands in no stretch of the runs: without a name that keeps them near the file's
+// every stretch may lose nearly all that the rows have to lose.
+TEST(OnUnseen, HoldsEverywhereByWhatTheRowsGain) {
+  const auto axis = plant::source_axis();
+  const InverseModel model(make_tracks({tests::make_recording(axis, {.motion = "sine", .duration_s = 8.0})}, axis), axis);
+  Fit with, without;
+  with.jacobian = Eigen::MatrixXd::Ones(model.rows(), 1);
+  without.jacobian = Eigen::MatrixXd::Zero(model.rows(), 0);
+  without.white = Vector::Constant(model.rows(), 1.0);
+  with.white = Vector::Zero(model.rows());
+  const double in_rows = without.white.squaredNorm();
+  for (const double surprise : {-40.0, 0.0, in_rows}) {
+    const Verdict all_of_it{.gain = in_rows + std::max(0.0, surprise), .surprise = surprise};
+    EXPECT_TRUE(on_unseen(model, with, without, hypothesis("cogging"), all_of_it, Bar{}).everywhere) << surprise;
+    const Verdict less{.gain = 2.0 * in_rows + std::max(0.0, surprise), .surprise = surprise};
+    EXPECT_FALSE(on_unseen(model, with, without, hypothesis("cogging"), less, Bar{}).everywhere) << surprise;
+  }
+}
+
 // A process that pauses for a second has nothing to gain there; any other effect acts in every one.
 TEST(OnUnseen, AProcessMayRestInOneFold) {
   const auto axis = plant::source_axis();
