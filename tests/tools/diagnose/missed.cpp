@@ -106,6 +106,12 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItExplainsMost) {
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 500.0);
   one.error_ratio = 4.8;
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4);
+  one.error_ratio = 2.08, one.strength = 6.7;  // on an axis that the disturbance hides in closed loop
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4) << "not on every stretch";
+  one.held_everywhere = true;
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 500.0);
+  one.strength = 0.52;  // a false one, about reversals
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4);
   Found other = found("cogging");
   other.error_ratio = 15.9;
   EXPECT_DOUBLE_EQ(nats_to_stay(other), 15.0);
