@@ -11,7 +11,7 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr double stretch_s = 2.0, lowest_Hz = 4.0;
+constexpr double stretch_s = 2.0, lowest_Hz = 4.0, lowest_of_motion_Hz = 1.0;
 constexpr double step_Hz_per_s = 0.5;  // moves the ends of a stretch by half a Hz
 constexpr int most_steps = 120;
 
@@ -28,11 +28,11 @@ struct Stretch {
 };
 
 /// The likeliest linear sweep: the rows against each rate, and what is left of it is a line.
-Wave strongest(const Stretch& stretch) {
+Wave strongest(const Stretch& stretch, double from_Hz) {
   const Index n = stretch.values.size();
   const auto length = static_cast<Index>(std::bit_ceil(static_cast<std::size_t>(2 * n)));
   const double per_bin_Hz = 1.0 / (static_cast<double>(length) * stretch.row_s);
-  const auto first = static_cast<Index>(std::ceil(lowest_Hz / per_bin_Hz)), last = 9 * length / 20;
+  const auto first = static_cast<Index>(std::ceil(from_Hz / per_bin_Hz)), last = 9 * length / 20;
   Eigen::FFT<double> fft;
   Eigen::VectorXcd against = Eigen::VectorXcd::Zero(length), spectrum;
   double most = 0.0;
@@ -54,13 +54,23 @@ Wave strongest(const Stretch& stretch) {
   return best;
 }
 
+/// Is it the motion's own wave, or a multiple of it? What the model leaves of a motion that sweeps is a sweep too.
+bool is_of(const Wave& motion, const Wave& wave) {
+  constexpr double least_share = 0.2, off_Hz = 1.0, off_Hz_per_s = 1.0, most_times = 5.0;
+  if (motion.share < least_share || motion.middle_Hz <= 0.0) return false;
+  const double times = std::clamp(std::round(wave.middle_Hz / motion.middle_Hz), 1.0, most_times);
+  return std::abs(wave.middle_Hz - times * motion.middle_Hz) < off_Hz &&
+         std::abs(wave.rate_Hz_per_s - times * motion.rate_Hz_per_s) < off_Hz_per_s;
+}
+
 /// One after the other, half of each in the next; without a share where the axis has not settled for half of it.
 std::vector<Wave> waves_of(const InverseModel& model, const Vector& residual, const Segment& s) {
   const double row_s = model.tracks()[s.run].row_s();
   const auto rows = static_cast<Index>(std::lround(stretch_s / row_s));
   std::vector<Wave> waves;
   for (Index from = 0; from + rows <= s.size; from += rows / 2) {
-    Stretch stretch{Vector(rows), Vector(rows), row_s};
+    Stretch stretch{Vector(rows), Vector(rows), row_s}, motion = stretch;
+    const Vector& acceleration = model.tracks()[s.run].acceleration_m_per_s2;
     Index settled = 0;
     for (Index k = 0; k < rows; ++k) {
       const bool in = model.settled(s.start + from + k);
@@ -68,9 +78,14 @@ std::vector<Wave> waves_of(const InverseModel& model, const Vector& residual, co
           std::pow(std::sin(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(rows)), 2);
       stretch.weights[k] = in ? fades : 0.0;
       stretch.values[k] = stretch.weights[k] * residual[s.start + from + k];
+      motion.weights[k] = fades;
+      motion.values[k] = fades * acceleration[model.sample_of(s, from + k)];
       settled += in ? 1 : 0;
     }
-    waves.push_back(2 * settled > rows && stretch.values.squaredNorm() > 0.0 ? strongest(stretch) : Wave{});
+    waves.emplace_back();
+    if (2 * settled <= rows || stretch.values.squaredNorm() <= 0.0) continue;
+    const Wave wave = strongest(stretch, lowest_Hz);
+    if (motion.values.squaredNorm() <= 0.0 || !is_of(strongest(motion, lowest_of_motion_Hz), wave)) waves.back() = wave;
   }
   return waves;
 }

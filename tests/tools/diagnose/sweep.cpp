@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
+#include "controllers/recorded.h"
 #include "tests/support/made_case.h"
 #include "tests/tools/diagnose/fitted_runs.h"
 
@@ -69,6 +71,30 @@ TEST_F(SweepOf, IsNoneOfALineThatStaysNorOfOneThatJumpsAbout) {
   EXPECT_FALSE(with_wave([](double) { return 21.0; }, 2.0).has_value());
   EXPECT_FALSE(with_wave([](double t_s) { return std::fmod(t_s, 1.0) < 0.5 ? 15.0 : 40.0; }, 2.0).has_value());
   EXPECT_FALSE(with_wave([](double) { return 0.0; }, 2.0).has_value()) << "noise alone";
+}
+
+// What a model leaves of a motion whose own frequency runs up does so too, and so do its harmonics.
+TEST(Sweep, IsNoneOfTheMotionsOwn) {
+  auto path = std::make_shared<controllers::RecordedPath>();
+  constexpr double from_Hz = 3.0, rate_Hz_per_s = 1.0, amplitude_m = 2e-3;
+  const auto cycles = [](double t_s) { return t_s * (from_Hz + 0.5 * rate_Hz_per_s * t_s); };
+  for (int i = 0; i < 8000; ++i) {
+    const double t_s = 1e-3 * i, phase = 2.0 * std::numbers::pi * cycles(t_s),
+                 rad_per_s = 2.0 * std::numbers::pi * (from_Hz + rate_Hz_per_s * t_s);
+    path->points.push_back({amplitude_m * std::sin(phase), amplitude_m * rad_per_s * std::cos(phase), 0.0});
+  }
+  std::vector<tools::Recording> runs(
+      2, tests::make_recording(plant::source_axis(), {.motion = "recorded", .settings = {.path = path}, .duration_s = 8.0}));
+  const tests::FittedRuns made{runs, plant::source_axis()};
+  for (const double times : {1.0, 3.0, 1.6}) {
+    Vector residual = Vector::Zero(made.model.rows());
+    for (const auto& s : made.model.segments())
+      for (Index k = 0; k < s.size; ++k) {
+        const double t_s = made.model.tracks()[s.run].row_s() * static_cast<double>(k);
+        residual[s.start + k] = amplitude_N * std::sin(2.0 * std::numbers::pi * times * cycles(t_s));
+      }
+    EXPECT_EQ(sweep_of(made.model, residual).has_value(), times == 1.6) << times;
+  }
 }
 
 }  // namespace
