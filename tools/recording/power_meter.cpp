@@ -58,7 +58,6 @@ struct Explained {
 /// By the first `asked` laws, however large each is; too few readings: nothing.
 Explained explained(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
                     const plant::AxisParameters& axis) {
-  constexpr double least_reading = 0.2;  // of the rms
   const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
   Eigen::Matrix<double, laws, laws> normal = Eigen::Matrix<double, laws, laws>::Zero();
   Eigen::Matrix<double, laws, 1> right = Eigen::Matrix<double, laws, 1>::Zero();
@@ -85,7 +84,7 @@ Explained explained(std::span<const Recording> recordings, MeterHabit habit, int
         sum += laws_of(command[k], command[k - 1], velocity(k), rad_per_m);
       sum.tail(laws - asked).setZero();
       const double reading_W = held ? power_W[row] : mean_of(power_W.subspan(row + 1 - meter.window, meter.window));
-      const double error_W = errors == Errors::alike ? 1.0 : std::hypot(reading_W, least_reading * rms_W) + 1e-300;
+      const double error_W = errors == Errors::alike ? 1.0 : error_scale_W(reading_W, rms_W, false);
       const auto mean = sum.matrix() / (error_W * static_cast<double>(meter.window));
       normal += mean * mean.transpose();
       right += mean * (reading_W / error_W);
@@ -108,14 +107,25 @@ double unexplained(std::span<const Recording> recordings, MeterHabit habit, int 
   return explained(recordings, habit, asked, errors, axis).left;
 }
 
-/// Nats that the readings are unlikely by, with errors of the likelier kind.
+/// Nats that the readings are unlikely by, with errors of this kind.
+double unlikely(std::span<const Recording> recordings, MeterHabit habit, int asked, Errors errors,
+                const plant::AxisParameters& axis) {
+  const Explained by = explained(recordings, habit, asked, errors, axis);
+  if (by.readings == 0.0) return std::numeric_limits<double>::infinity();
+  return 0.5 * by.readings * std::log(by.left + 1e-300) + by.log_errors;
+}
+
+/// With errors of the likelier kind.
 double unlikely(std::span<const Recording> recordings, MeterHabit habit, int asked, const plant::AxisParameters& axis) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Errors errors : {Errors::of_readings, Errors::alike}) {
-    const Explained by = explained(recordings, habit, asked, errors, axis);
-    if (by.readings > 0.0) least = std::min(least, 0.5 * by.readings * std::log(by.left + 1e-300) + by.log_errors);
-  }
-  return least;
+  return std::min(unlikely(recordings, habit, asked, Errors::of_readings, axis),
+                  unlikely(recordings, habit, asked, Errors::alike, axis));
+}
+
+/// Do its readings err by as much however large they are, as by the noise of its input?
+bool errs_alike(std::span<const Recording> recordings, MeterHabit habit, const plant::AxisParameters& axis) {
+  constexpr double clearly_nats = 10.0;
+  return unlikely(recordings, habit, laws, Errors::alike, axis) + clearly_nats <
+         unlikely(recordings, habit, laws, Errors::of_readings, axis);
 }
 
 /// A meter may average for longer than from one reading to the next: not told where a window of one reading leaves less than
@@ -236,7 +246,19 @@ MeteredPower metered_rows(const Recording& recording, const plant::AxisParameter
 MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis) {
   MeterHabit habit = habit_in_time(recordings, axis);
   habit.of_command = computed_from_command(recordings, habit, axis);
+  habit.errors_alike = errs_alike(recordings, habit, axis);
   return habit;
+}
+
+double rms_of_readings(std::span<const double> power_W, const MeteredPower& meter) {
+  double squares = 0.0;
+  for (const std::size_t row : meter.rows) squares += power_W[row] * power_W[row];
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, meter.rows.size())));
+}
+
+double error_scale_W(double reading_W, double rms_W, bool errors_alike) {
+  constexpr double least_reading = 0.2;  // of the rms: a meter's error is partly of its reading
+  return (errors_alike ? rms_W : std::hypot(reading_W, least_reading * rms_W)) + 1e-300;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

@@ -47,6 +47,7 @@ struct MeterHabit {
   bool instants = true;            ///< of the power at the rows' instants; otherwise over all time between them
   double readings_a_window = 1.0;  ///< windows overlap where it is more, and do not meet where it is less
   bool of_command = false;         ///< computed from the commanded torque and not measured
+  bool errors_alike = false;       ///< its readings err by as much however large they are; otherwise in proportion
 };
 
 struct Recording {
@@ -55,6 +56,7 @@ struct Recording {
   std::vector<std::string> unused_columns;                           ///< of the file
   double sample_s = 0.0;                                             ///< between rows
   MeterHabit meter;                                                  ///< of the power meter (power_meter.h)
+  bool forces_before_command = false;  ///< torque and force sensor are read before the row's command sets in
 
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] double duration_s() const noexcept { return static_cast<double>(size()) * sample_s; }

@@ -108,6 +108,26 @@ TEST(MeterHabit, IsToldOfAMeterThatErrsByItsReading) {
   EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 1U);
 }
 
+TEST(MeterHabit, TellsErrorsThatAreAlikeFromThoseOfReadings) {
+  for (const bool alike : {true, false}) {
+    std::vector<Recording> runs;
+    for (const double speed : {0.02, 0.25})
+      runs.push_back(tests::make_recording(
+          plant::source_axis(),
+          {.motion = "sine", .settings = {.amplitude_m = 0.03, .speed_m_per_s = speed}, .duration_s = 12.0}));
+    std::mt19937 random(7);
+    std::normal_distribution<double> unit;
+    for (auto& run : runs) {
+      double shown = 0.0, off_W = 0.0;
+      for (double& reading : run.channels.at(std::string(channel::power_W))) {
+        if (reading != shown) shown = reading, off_W = 0.02 * (alike ? 10.0 : shown) * unit(random);
+        reading += off_W;
+      }
+    }
+    EXPECT_EQ(meter_habit(runs, plant::source_axis()).errors_alike, alike);
+  }
+}
+
 // Noise that leaves of all habits about as much: the likelier one is taken, and it is the right one.
 TEST(MeterHabit, IsToldOfANoisyMeterToo) {
   for (const double noise_W : {0.05, 0.2, 0.8}) {

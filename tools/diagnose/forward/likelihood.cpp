@@ -16,7 +16,6 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double stretch_s = 0.25;
-constexpr double least_reading = 0.2;  // of the rms: a meter's error is partly of its reading
 
 /// A channel's residuals of all runs, later their log densities, and the stretch that each is of.
 struct Channel {
@@ -42,12 +41,11 @@ struct Channel {
   }
 };
 
-void even_out_power(std::vector<double>& residual, std::span<const double> power_W, const MeteredPower& meter) {
-  double squares = 0.0;
-  for (const std::size_t row : meter.rows) squares += power_W[row] * power_W[row];
-  const double rms_W = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, meter.rows.size())));
+void even_out_power(std::vector<double>& residual, const Recording& recording, const MeteredPower& meter) {
+  const auto power_W = recording.at(channel::power_W);
+  const double rms_W = rms_of_readings(power_W, meter);
   for (std::size_t i = 0; i < residual.size(); ++i)
-    residual[i] /= std::hypot(std::abs(power_W[meter.rows[i]]), least_reading * rms_W) + 1e-12;
+    residual[i] /= error_scale_W(power_W[meter.rows[i]], rms_W, recording.meter.errors_alike);
 }
 
 }  // namespace
@@ -62,7 +60,6 @@ Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis) {
   Likelihood found;
   for (std::size_t r = 0; r < forward.runs().size(); ++r) {
     const auto& recording = forward.runs()[r].recording();
-    const auto power = recording.at(channel::power_W);
     const auto meter = metered_rows(recording, forward.runs()[r].nominal());
     auto residuals = channel_residuals(recording, meter, simulated[r]);
     const std::size_t first = found.stretches.size();
@@ -71,7 +68,7 @@ Likelihood likelihood(const ForwardModel& forward, const AxisByRun& axis) {
     for (std::size_t c = 0; c < channels.size(); ++c) {
       if (residuals[c].empty()) continue;
       const bool metered = fitted_channels[c] == channel::power_W;
-      if (metered) even_out_power(residuals[c], power, meter);
+      if (metered) even_out_power(residuals[c], recording, meter);
       std::vector<std::size_t> at(residuals[c].size());
       for (std::size_t i = 0; i < at.size(); ++i) at[i] = first + (metered ? meter.rows[i] : i) / length;
       if (fitted_channels[c] == channel::torque_sensor_Nm) {
