@@ -36,7 +36,7 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
     recording.channels[std::string(name)].push_back(value);
   };
   const auto on_grid = [](double value, double grid) { return grid > 0.0 ? grid * std::round(value / grid) : value; };
-  double metered_W = 0.0, read_W = 0.0;
+  double metered_W = 0.0, read_W = 0.0, acting_Nm = 0.0;
   const auto rows = static_cast<int>(run.duration_s * 1e3);
   for (int i = 0; i < rows; ++i) {
     const double time_s = i * 1e-3;
@@ -51,7 +51,8 @@ tools::Recording make_recording(const plant::AxisParameters& parameters, const M
     if (run.sensors) {
       const double scale_m = run.scale_at_table ? signals.scale_position_m : position_m;
       push(channel::scale_position_m, run.quantised ? std::round(scale_m * 1e8) * 1e-8 : scale_m);
-      const auto sensors = axis.force_sensors({.torque_Nm = torque_Nm});
+      const auto sensors = axis.force_sensors({.torque_Nm = run.forces_before_command ? acting_Nm : torque_Nm});
+      acting_Nm = torque_Nm;
       push(channel::torque_sensor_Nm,
            on_grid(sensors.torque_sensor_Nm + run.torque_noise_Nm * unit(random), run.torque_grid_Nm));
       push(channel::force_sensor_N, on_grid(sensors.force_sensor_N + run.force_noise_N * unit(random), run.force_grid_N));

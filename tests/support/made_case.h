@@ -25,6 +25,7 @@ struct MadeRun {
   bool sensors = true;  ///< scale, torque, force, power
   bool quantised = true;
   bool scale_at_table = false;                        ///< the scale shows the table itself, not what the encoder shows
+  bool forces_before_command = false;                 ///< torque and force are read before the row's command sets in
   double torque_noise_Nm = 0.0, force_noise_N = 0.0;  ///< of the two sensors
   double torque_grid_Nm = 0.0, force_grid_N = 0.0;    ///< of their converter; 0: none
   double power_noise_W = 0.0, power_grid_W = 0.0;     ///< of the meter's readings

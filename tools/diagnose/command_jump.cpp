@@ -66,6 +66,32 @@ double torque_share_of_a_yielding_screw(const plant::AxisParameters& axis) {
   return screw / (motor + screw) * (motor + screw + table) / (screw + table);
 }
 
+/// Sensors that are read before the row's command sets in show the sample's last instant under the command before: as late
+/// again as what they do not show of the jump, and no more than a sample.
+/// @param behind the torque sensor's share of a jump behind a screw that yields
+bool as_late_as_before_the_command(const OneBody& one, double behind) {
+  // seven that were read so, behind screws that yield, looked 1.64 to 1.78 half ticks late
+  constexpr double least = 0.92, most = 2.15, of_at_once = 1.6;
+  const double half_ticks = one.torque_late_s() / one.half_tick_s();
+  return half_ticks > std::max(least * (1.0 + behind), of_at_once * (1.0 - behind) + 0.2) && half_ticks < most;
+}
+
+/// A command that is late makes all sensors look so; it is late for the motion too.
+bool command_is_late(const std::vector<Recording>& runs, const plant::AxisParameters& nominal) {
+  constexpr double clearly_s = 1.5e-4;
+  const InverseModel model(make_tracks(runs, nominal), nominal);
+  const Fit fit =
+      quickly_fitted(model, {nominal, {{&hypothesis("channel_skew"), {0.0, 0.0}}, {&hypothesis("input_delay"), {0.0}}}});
+  return fit.model.effects.back().q[0] > clearly_s;
+}
+
+/// By how late each looks: as it does behind a screw that swings too.
+JumpShares shares_before_the_command(const OneBody& one, bool with_force) {
+  const auto share = [&](double late_s) { return std::max(-1.0, 1.0 - late_s / one.half_tick_s()); };
+  return {
+      .torque = share(one.torque_late_s()), .force = with_force ? share(one.force_late_s()) : 1.0, .before_command = true};
+}
+
 /// As late as the torque sensor looks, read as one body, where the jump moves motor and screw alone.
 bool as_late_as_behind_a_yielding_screw(const OneBody& one, double share) {
   // two behind a yielding screw looked 1.05 and 1.3 times as late, one with a lag of 50 us too 3.9
@@ -81,10 +107,12 @@ JumpShares jump_shares(const std::vector<Recording>& runs, const plant::AxisPara
   constexpr double most_that_tells = 0.8;
   const double behind = torque_share_of_a_yielding_screw(nominal);
   const auto recorded = [&](std::string_view sensor) { return !runs.empty() && runs.front().has(sensor); };
-  const bool by_force = recorded(channel::force_sensor_N),
-             by_torque = recorded(channel::torque_sensor_Nm) && behind < most_that_tells;
-  if (!by_force && !by_torque) return {};
+  const bool by_force = recorded(channel::force_sensor_N), with_torque = recorded(channel::torque_sensor_Nm),
+             by_torque = with_torque && behind < most_that_tells;
+  if (!by_force && !with_torque) return {};
   const OneBody one(runs, nominal);
+  if (with_torque && as_late_as_before_the_command(one, behind) && !command_is_late(runs, nominal))
+    return shares_before_the_command(one, by_force);
   const double force = by_force ? force_share(one, runs, nominal) : 1.0;
   const bool yields = force < 1.0 || (by_torque && as_late_as_behind_a_yielding_screw(one, behind));
   return {.torque = yields ? behind : 1.0, .force = force};

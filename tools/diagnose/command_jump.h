@@ -13,6 +13,9 @@
 
 namespace feedtwin::tools::diagnosis {
 
+// Many controllers read their sensors first and then set the command: such a row shows nothing of its own jump, and what it
+// would have shown of the one before is a sample late.
+
 /// Of what one body would show: 1, or less where the recordings say so. 1 without the sensor.
 [[nodiscard]] JumpShares jump_shares(const std::vector<Recording>& runs, const plant::AxisParameters& nominal);
 

@@ -50,6 +50,7 @@ class Diagnosing {
         model_(make_tracks(data_.fit, data_.axis, as_read_), data_.axis),
         fitter_(model_, data_.axis),
         forward_(data_.fit, data_) {
+    note_reading(data_, as_read_.jump_shares);
     for (auto& fault : known) result_.setup.push_back(std::move(fault));
     result_.power_of_command = model_.tracks().front().meter.of_command;
   }

@@ -17,4 +17,7 @@ namespace feedtwin::tools::diagnosis {
 /// yields.
 [[nodiscard]] JumpShares shown_jump_shares(const Case& data, const std::function<void(std::string_view)>& progress);
 
+/// For the simulation of the runs.
+void note_reading(Case& data, const JumpShares& shares);
+
 }  // namespace feedtwin::tools::diagnosis

@@ -42,7 +42,8 @@ struct MeterWindows {
 
 /// How much of the command's jump each sensor shows at once, of what one body would show it.
 struct JumpShares {
-  double torque = 1.0, force = 1.0;
+  double torque = 1.0, force = 1.0;  ///< negative: it is read before the jump
+  bool before_command = false;       ///< both sensors are read before the row's command sets in
 };
 
 struct Track {

@@ -115,6 +115,8 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
   for (auto* channel : {&out.torque_sensor_Nm, &out.force_sensor_N}) channel->resize(sensors ? view.samples : 0);
   const Terms coefficients = coefficients_of(axis.parameters().motor);
   const bool of_command = run.recording().meter.of_command;
+  const bool before_command = run.recording().forces_before_command;
+  plant::AxisCommand acting{.torque_Nm = view.torque_Nm[0]};
   const SetpointSource source = setpoint_source(axis.parameters());
   const Setpoint& setpoint = run.setpoints().by(source.of_motion);
   for (std::size_t i = 0; i < view.samples; ++i) {
@@ -126,7 +128,8 @@ Simulated simulate_closed_loop(const ClosedLoopRun& run, plant::FeedAxis& axis, 
                            : view.torque_Nm[i] + stand_in.correction_N(view.position_m[i] - shown_m) / transmission;
     const plant::AxisCommand command{.torque_Nm = out.torque_Nm[i], .setpoint_m_per_s = setpoint.m_per_s(i, source.lead_s)};
     if (sensors) {
-      const auto forces = axis.force_sensors(command);
+      const auto forces = axis.force_sensors(before_command ? acting : command);
+      acting = command;
       out.torque_sensor_Nm[i] = forces.torque_sensor_Nm;
       out.force_sensor_N[i] = forces.force_sensor_N;
     }
