@@ -22,6 +22,7 @@
 #include "tools/diagnose/forward/with_mode.h"
 #include "tools/diagnose/holdout.h"
 #include "tools/diagnose/judge.h"
+#include "tools/diagnose/lead_by_numbers.h"
 #include "tools/diagnose/lead_by_torque.h"
 #include "tools/diagnose/mended_case.h"
 #include "tools/diagnose/motor_friction.h"
@@ -287,12 +288,11 @@ class Diagnosing {
 
 Diagnosis diagnose(const Case& given, const std::function<void(std::string_view)>& progress) {
   Diagnosis told = Diagnosing(given, progress).run();
-  const auto lead = lead_by_torque(told);
+  const auto by_torque = lead_by_torque(told), by_numbers = lead_by_numbers(told);
+  const auto& lead = by_torque ? by_torque : by_numbers;
   if (!lead) return told;
   progress(lead->sentence);
-  Case anew = given;
-  anew.axis.axis.lead_m *= lead->parameters.front().value;
-  return Diagnosing(anew, progress, {*lead}).run();
+  return Diagnosing(with_lead(given, *lead), progress, {*lead}).run();
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -25,6 +25,13 @@ JumpShares shown_jump_shares(const Case& data, const std::function<void(std::str
   return shares;
 }
 
+Case with_lead(Case data, const SetupFault& wrong_lead) {
+  const double factor = wrong_lead.parameters.front().value;
+  data.axis.axis.lead_m *= factor;
+  if (wrong_lead.channel == channel::position_m) multiply(data, channel::position_m, factor);
+  return data;
+}
+
 void note_reading(Case& data, const JumpShares& shares) {
   for (auto* runs : {&data.fit, &data.holdout})
     for (auto& run : *runs) run.forces_before_command = shares.before_command;

@@ -17,6 +17,9 @@ namespace feedtwin::tools::diagnosis {
 /// yields.
 [[nodiscard]] JumpShares shown_jump_shares(const Case& data, const std::function<void(std::string_view)>& progress);
 
+/// With the lead that a fault says, and the positions too where it says so of them.
+[[nodiscard]] Case with_lead(Case data, const SetupFault& wrong_lead);
+
 /// For the simulation of the runs.
 void note_reading(Case& data, const JumpShares& shares);
 

@@ -60,13 +60,6 @@ Slope slope(const std::vector<Recording>& runs, std::string_view of, std::string
   return found;
 }
 
-void multiply(Case& data, std::string_view name, double factor) {
-  for (auto* runs : {&data.fit, &data.holdout})
-    for (auto& run : *runs)
-      if (const auto found = run.channels.find(name); found != run.channels.end())
-        for (double& value : found->second) value *= factor;
-}
-
 SetupFault reversed(std::string_view name, const char* parameter) {
   return {"wrong_sign",
           "set_up",
@@ -122,6 +115,13 @@ std::optional<SetupFault> mend_meter(const Recording& recording, plant::AxisPara
 }
 
 }  // namespace
+
+void multiply(Case& data, std::string_view name, double factor) {
+  for (auto* runs : {&data.fit, &data.holdout})
+    for (auto& run : *runs)
+      if (const auto found = run.channels.find(name); found != run.channels.end())
+        for (double& value : found->second) value *= factor;
+}
 
 std::vector<SetupFault> mend_setup(Case& data) {
   std::vector<SetupFault> faults;
