@@ -25,8 +25,8 @@ Diagnosis with_lead_of(double factor) {
   for (const char* key :
        {"ball_screw.coulomb_pos_N", "ball_screw.static_neg_N", "guide.coulomb_pos_N", "motor.coulomb_neg_N"})
     add(key, 1.0);
-  for (const char* key :
-       {"ball_screw.viscous_pos_Ns_per_m", "guide.mass_kg", "motor.ke2_neg_Ws2_per_m2", "guide.sigma0_N_per_m"})
+  for (const char* key : {"ball_screw.viscous_pos_Ns_per_m", "ball_screw.viscous_neg_Ns_per_m", "guide.mass_kg",
+                          "guide.viscous_pos_Ns_per_m", "motor.ke2_neg_Ws2_per_m2", "guide.sigma0_N_per_m"})
     add(key, 2.0);
   add("motor.inertia_kgm2", 0.0);
   add("ball_screw.stribeck_pos_m_per_s", -1.0);
