@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/made_case.h"
+#include "tools/diagnose/forward/forward_model.h"
+#include "tools/diagnose/mended_case.h"
 
 namespace feedtwin {
 namespace {
@@ -89,6 +91,20 @@ TEST(CommandJump, BehindAYieldingScrewTheyShowTheScrewsShareOfTheJumpBefore) {
   EXPECT_NEAR(shares.torque, -0.425, 0.15) << "of a rigid axis -1";
   EXPECT_NEAR(shares.force, 0.0, 0.3) << "the table's force does not jump";
   EXPECT_FALSE(read_before_the_command({screw}, false).before_command);
+}
+
+TEST(CommandJump, TheClosedLoopReadsThemBeforeTheCommandToo) {
+  const auto truth = plant::source_axis();
+  tools::Case data;
+  data.axis = truth;
+  data.fit.push_back(tests::make_recording(truth, {.motion = "sine", .duration_s = 4.0, .forces_before_command = true}));
+  const ForwardModel forward(data.fit, data);
+  const auto at_once = forward.nrmse(truth);
+  note_reading(data, {.before_command = true});
+  const auto before = forward.nrmse(truth);
+  for (const char* sensor : {"torque_sensor_Nm", "force_sensor_N"})
+    EXPECT_LT(before.at(sensor), 0.3 * at_once.at(sensor)) << sensor;
+  EXPECT_EQ(before.at("torque_cmd_Nm"), at_once.at("torque_cmd_Nm"));
 }
 
 TEST(CommandJump, ALateCommandIsNotReadBeforeIt) {
