@@ -59,8 +59,8 @@ TEST(CommandJump, ALateCommandIsNoYieldingScrew) {
   EXPECT_EQ(share_of(with(tests::effect("input_delay", {{"delay_s", 8e-4}}))), 1.0);
 }
 
-JumpShares read_before_the_command(const std::vector<plant::EffectSetting>& effects, bool before = true,
-                                   bool with_force = true) {
+/// Of a table as heavy as motor and screw. @param before sensors are read before the row's command sets in
+JumpShares of_a_heavy_table(const std::vector<plant::EffectSetting>& effects, bool before = true, bool with_force = true) {
   auto truth = plant::source_axis();
   truth.guide_mass_kg = 90.0;
   auto nominal = truth;
@@ -76,21 +76,21 @@ JumpShares read_before_the_command(const std::vector<plant::EffectSetting>& effe
 
 TEST(CommandJump, SensorsThatAreReadBeforeTheCommandAreTold) {
   for (const bool with_force : {true, false}) {
-    const auto rigid = read_before_the_command({}, true, with_force);
+    const auto rigid = of_a_heavy_table({}, true, with_force);
     EXPECT_TRUE(rigid.before_command);
     EXPECT_NEAR(rigid.torque, -1.0, 0.05);
     EXPECT_NEAR(rigid.force, with_force ? -1.0 : 1.0, 0.05);
-    EXPECT_FALSE(read_before_the_command({}, false, with_force).before_command);
+    EXPECT_FALSE(of_a_heavy_table({}, false, with_force).before_command);
   }
 }
 
 TEST(CommandJump, BehindAYieldingScrewTheyShowTheScrewsShareOfTheJumpBefore) {
   const auto screw = tests::effect("screw_compliance", {{"stiffness_N_per_m", 1e8}});
-  const auto shares = read_before_the_command({screw});
+  const auto shares = of_a_heavy_table({screw});
   EXPECT_TRUE(shares.before_command);
   EXPECT_NEAR(shares.torque, -0.425, 0.15) << "of a rigid axis -1";
   EXPECT_NEAR(shares.force, 0.0, 0.3) << "the table's force does not jump";
-  EXPECT_FALSE(read_before_the_command({screw}, false).before_command);
+  EXPECT_FALSE(of_a_heavy_table({screw}, false).before_command);
 }
 
 TEST(CommandJump, TheClosedLoopReadsThemBeforeTheCommandToo) {
@@ -108,21 +108,12 @@ TEST(CommandJump, TheClosedLoopReadsThemBeforeTheCommandToo) {
 }
 
 TEST(CommandJump, ALateCommandIsNotReadBeforeIt) {
-  EXPECT_FALSE(read_before_the_command({tests::effect("input_delay", {{"delay_s", 9e-4}})}, false).before_command);
+  EXPECT_FALSE(of_a_heavy_table({tests::effect("input_delay", {{"delay_s", 9e-4}})}, false).before_command);
 }
 
-/// Of a table as heavy as motor and screw, without a force sensor.
+/// Without a force sensor.
 double torque_share_of(const std::vector<plant::EffectSetting>& effects) {
-  auto truth = plant::source_axis();
-  truth.guide_mass_kg = 90.0;
-  auto nominal = truth;
-  nominal.guide_mass_kg *= 1.04;
-  truth.effects = effects;
-  std::vector<tools::Recording> runs;
-  for (const char* motion : {"sine", "triangle"})
-    runs.push_back(tests::make_recording(truth, {.motion = motion, .duration_s = 6.0, .sensors = true}));
-  for (auto& run : runs) run.channels.erase("force_sensor_N");
-  return jump_shares(runs, nominal).torque;
+  return of_a_heavy_table(effects, false, false).torque;
 }
 
 TEST(CommandJump, BehindAYieldingScrewTheTorqueSensorShowsWhatTheScrewsInertiaTakes) {
