@@ -77,11 +77,10 @@ bool as_late_as_before_the_command(const OneBody& one, double behind) {
 }
 
 /// A command that is late makes all sensors look so; it is late for the motion too.
-bool command_is_late(const std::vector<Recording>& runs, const plant::AxisParameters& nominal) {
+bool command_is_late(const OneBody& one, const plant::AxisParameters& nominal) {
   constexpr double clearly_s = 1.5e-4;
-  const InverseModel model(make_tracks(runs, nominal), nominal);
   const Fit fit =
-      quickly_fitted(model, {nominal, {{&hypothesis("channel_skew"), {0.0, 0.0}}, {&hypothesis("input_delay"), {0.0}}}});
+      quickly_fitted(one.model, {nominal, {{&hypothesis("channel_skew"), {0.0, 0.0}}, {&hypothesis("input_delay"), {0.0}}}});
   return fit.model.effects.back().q[0] > clearly_s;
 }
 
@@ -111,7 +110,7 @@ JumpShares jump_shares(const std::vector<Recording>& runs, const plant::AxisPara
              by_torque = with_torque && behind < most_that_tells;
   if (!by_force && !with_torque) return {};
   const OneBody one(runs, nominal);
-  if (with_torque && as_late_as_before_the_command(one, behind) && !command_is_late(runs, nominal))
+  if (with_torque && as_late_as_before_the_command(one, behind) && !command_is_late(one, nominal))
     return shares_before_the_command(one, by_force);
   const double force = by_force ? force_share(one, runs, nominal) : 1.0;
   const bool yields = force < 1.0 || (by_torque && as_late_as_behind_a_yielding_screw(one, behind));

@@ -84,7 +84,7 @@ Explained explained(std::span<const Recording> recordings, MeterHabit habit, int
         sum += laws_of(command[k], command[k - 1], velocity(k), rad_per_m);
       sum.tail(laws - asked).setZero();
       const double reading_W = held ? power_W[row] : mean_of(power_W.subspan(row + 1 - meter.window, meter.window));
-      const double error_W = errors == Errors::alike ? 1.0 : error_scale_W(reading_W, rms_W, false);
+      const double error_W = error_scale_W(reading_W, rms_W, errors == Errors::alike);
       const auto mean = sum.matrix() / (error_W * static_cast<double>(meter.window));
       normal += mean * mean.transpose();
       right += mean * (reading_W / error_W);
@@ -250,15 +250,9 @@ MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisP
   return habit;
 }
 
-double rms_of_readings(std::span<const double> power_W, const MeteredPower& meter) {
-  double squares = 0.0;
-  for (const std::size_t row : meter.rows) squares += power_W[row] * power_W[row];
-  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, meter.rows.size())));
-}
-
 double error_scale_W(double reading_W, double rms_W, bool errors_alike) {
   constexpr double least_reading = 0.2;  // of the rms: a meter's error is partly of its reading
-  return (errors_alike ? rms_W : std::hypot(reading_W, least_reading * rms_W)) + 1e-300;
+  return errors_alike ? 1.0 : std::hypot(reading_W, least_reading * rms_W) + 1e-300;
 }
 
 std::vector<double> as_metered(std::span<const double> power_W, const MeteredPower& meter) {

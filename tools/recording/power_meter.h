@@ -39,8 +39,7 @@ struct MeteredPower {
 /// is clearly better than the means over instants of this row's window.
 [[nodiscard]] MeterHabit meter_habit(std::span<const Recording> recordings, const plant::AxisParameters& axis);
 
-[[nodiscard]] double rms_of_readings(std::span<const double> power_W, const MeteredPower& meter);
-/// What the error of a reading is in proportion to, among others whose rms this is.
+/// What the error of a reading is in proportion to, among others of its run whose rms this is; alike: 1 in every run.
 [[nodiscard]] double error_scale_W(double reading_W, double rms_W, bool errors_alike);
 
 /// A simulated power as the recording's meter would show it, row by row.

@@ -108,6 +108,11 @@ TEST(MeterHabit, IsToldOfAMeterThatErrsByItsReading) {
   EXPECT_EQ(meter_habit(runs, plant::source_axis()).delay, 1U);
 }
 
+TEST(ErrorScale, IsOneWhereErrorsAreAlikeWhateverTheRunReads) {
+  EXPECT_EQ(error_scale_W(40.0, 50.0, true), error_scale_W(1.0, 2.0, true));
+  EXPECT_GT(error_scale_W(40.0, 50.0, false), 5.0 * error_scale_W(1.0, 2.0, false));
+}
+
 TEST(MeterHabit, TellsErrorsThatAreAlikeFromThoseOfReadings) {
   for (const bool alike : {true, false}) {
     std::vector<Recording> runs;

@@ -67,11 +67,10 @@ Recording as_recorded(const ClosedLoopRun& run, const Simulated& simulated, doub
     if (name == channel::power_W) {
       const auto meter = metered_rows(original, run.nominal());
       values = as_metered(model, meter);
-      const double rms_W = rms_of_readings(original.at(name), meter);
       double error_W = 0.0;
       auto next = meter.rows.begin();
       for (std::size_t k = 0; k < values.size(); ++k) {
-        const double of_W = original.meter.errors_alike ? rms_W : values[k];
+        const double of_W = original.meter.errors_alike ? 1.0 : values[k];
         if (next != meter.rows.end() && *next == k) error_W = meter_share * of_W * normal(random), ++next;
         values[k] += error_W;
       }
@@ -151,10 +150,9 @@ void ForwardModel::learn_meter_noise(const AxisByRun& axis) {
     if (recorded.empty()) return;
     const auto meter = metered_rows(runs_[r].recording(), runs_[r].nominal());
     const auto residual = channel_residuals(runs_[r].recording(), meter, simulated[r])[static_cast<std::size_t>(power)];
-    const double rms_W = rms_of_readings(recorded, meter);
     for (std::size_t i = 1; i < residual.size(); ++i) {
       const double reading_W = runs_[r].recording().meter.errors_alike
-                                   ? std::numbers::sqrt2 * rms_W
+                                   ? std::numbers::sqrt2
                                    : std::hypot(recorded[meter.rows[i]], recorded[meter.rows[i - 1]]);
       if (reading_W > 0.0) shares.push_back(std::abs(residual[i] - residual[i - 1]) / reading_W);
     }

@@ -24,7 +24,8 @@ class ForwardModel {
   /// @param most_samples that are simulated before no more is asked
   ForwardModel(const std::vector<Recording>& recordings, const Case& data, std::uint64_t most_samples = usual_samples);
 
-  /// The scatter of the meter's readings, as a share of each, from the differences of neighbouring residuals.
+  /// The scatter of the meter's readings, as a share of each or, where they err alike, in W, from the differences of
+  /// neighbouring residuals.
   void learn_meter_noise(const AxisByRun& axis);
   void take_meter_from(const ForwardModel& other) { meter_share_ = other.meter_share_; }
 

@@ -43,7 +43,9 @@ struct Channel {
 
 void even_out_power(std::vector<double>& residual, const Recording& recording, const MeteredPower& meter) {
   const auto power_W = recording.at(channel::power_W);
-  const double rms_W = rms_of_readings(power_W, meter);
+  double squares = 0.0;
+  for (const std::size_t row : meter.rows) squares += power_W[row] * power_W[row];
+  const double rms_W = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, meter.rows.size())));
   for (std::size_t i = 0; i < residual.size(); ++i)
     residual[i] /= error_scale_W(power_W[meter.rows[i]], rms_W, recording.meter.errors_alike);
 }
