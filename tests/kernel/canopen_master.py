@@ -52,6 +52,17 @@ class Master:
                 return bytes(message.data)
         sys.exit(f"nothing came on {identifier:#x}")
 
+    def reset(self, tries=20):
+        """NMT reset, again until the node answers: a server that was just started may not listen yet."""
+        for _ in range(tries):
+            self.send(0x000, bytes([0x81, NODE]))
+            end = time.monotonic() + 0.5
+            while (left := end - time.monotonic()) > 0:
+                message = self.bus.recv(left)
+                if message is not None and message.arbitration_id == 0x700 + NODE and bytes(message.data) == b"\0":
+                    return
+        sys.exit("no boot-up came")
+
     # SDO client
     def ask(self, data):
         self.send(0x600 + NODE, bytes(data).ljust(8, b"\0"))
@@ -201,8 +212,7 @@ def main():
     options = parser.parse_args()
     master = Master(options.interface)
 
-    master.send(0x000, bytes([0x81, NODE]))
-    master.wait_for(0x700 + NODE, what=lambda data: data == b"\0")
+    master.reset()
     print("boot-up seen after NMT reset")
     check_objects(master)
     remap(master)

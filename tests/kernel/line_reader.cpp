@@ -1,18 +1,21 @@
 // Reads gpio-sim's lines back through sysfs and writes down every change of the first three with its time: an independent
-// witness of what the kernel has on them. Knows nothing of quadrature.
-//   line_reader SYSFS_FOLDER SECONDS OUTPUT
+// witness of what the kernel has on them. Knows nothing of quadrature. Reads until SIGTERM: how long the server takes to
+// start is the host's affair, and a witness that leaves early has not seen the end.
+//   line_reader SYSFS_FOLDER OUTPUT
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <string>
 #include <vector>
 
 namespace {
+
+volatile std::sig_atomic_t told_to_end = 0;
 
 std::int64_t now_ns() {
   timespec now{};
@@ -28,7 +31,7 @@ int level(int file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
+  if (argc != 3) return 2;
   const std::string folder = argv[1];
   int lines[3];
   for (int i = 0; i < 3; ++i) {
@@ -44,9 +47,10 @@ int main(int argc, char** argv) {
   };
   std::vector<Change> changes;
   changes.reserve(1'000'000);
-  const std::int64_t end_ns = now_ns() + static_cast<std::int64_t>(std::atof(argv[2]) * 1e9);
+  std::signal(SIGTERM, [](int) { told_to_end = 1; });
   int last = -1, before = -1;
-  for (std::int64_t at_ns = now_ns(); at_ns < end_ns; at_ns = now_ns()) {
+  while (told_to_end == 0) {
+    const std::int64_t at_ns = now_ns();
     const int levels = level(lines[0]) | level(lines[1]) << 1 | level(lines[2]) << 2;
     const bool steady = levels == before;  // read twice alike: no edge fell between the lines
     before = levels;
@@ -54,7 +58,7 @@ int main(int argc, char** argv) {
     changes.push_back({at_ns, levels});
     last = levels;
   }
-  std::FILE* out = std::fopen(argv[3], "w");
+  std::FILE* out = std::fopen(argv[2], "w");
   if (out == nullptr) return 2;
   for (const auto& change : changes) std::fprintf(out, "%lld %d\n", static_cast<long long>(change.time_ns), change.levels);
   std::fclose(out);
