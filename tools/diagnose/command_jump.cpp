@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "tools/diagnose/fit.h"
+#include "tools/diagnose/shown_shift.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -76,6 +77,11 @@ bool as_late_as_before_the_command(const OneBody& one, double behind) {
   return half_ticks > std::max(least * (1.0 + behind), of_at_once * (1.0 - behind) + 0.2) && half_ticks < most;
 }
 
+/// However late a motor's friction that sets in over a path lets the torque sensor look.
+bool shown_by_its_jumps(const OneBody& one) {
+  return shown_a_sample_later(shown_shift(one.model.tracks(), &Track::torque_sensor_N));
+}
+
 /// A command that is late makes all sensors look so; it is late for the motion too.
 bool command_is_late(const OneBody& one, const plant::AxisParameters& nominal) {
   constexpr double clearly_s = 1.5e-4;
@@ -110,7 +116,8 @@ JumpShares jump_shares(const std::vector<Recording>& runs, const plant::AxisPara
              by_torque = with_torque && behind < most_that_tells;
   if (!by_force && !with_torque) return {};
   const OneBody one(runs, nominal);
-  if (with_torque && as_late_as_before_the_command(one, behind) && !command_is_late(one, nominal))
+  if (with_torque && (as_late_as_before_the_command(one, behind) || shown_by_its_jumps(one)) &&
+      !command_is_late(one, nominal))
     return shares_before_the_command(one, by_force);
   const double force = by_force ? force_share(one, runs, nominal) : 1.0;
   const bool yields = force < 1.0 || (by_torque && as_late_as_behind_a_yielding_screw(one, behind));

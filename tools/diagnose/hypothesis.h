@@ -137,6 +137,8 @@ struct Hypothesis {
   /// challenge cases, seen on held-out runs, right names made 1.048 and more, a third of the wrong ones less than 1.02; what
   /// laps of EMPS that nobody fitted bear out made 1.018 and 1.020.
   double least_error_ratio = 1.015;
+  /// Do the recordings show it by themselves, whatever the model? Coming closer is enough then; nullptr: no.
+  bool (*shown)(const std::vector<Track>& runs, std::span<const double> q) = nullptr;
   /// So many where both, with it and without, are polished before that is asked again.
   double least_error_ratio_polished = 0.0;
   /// And in closed loop, all other numbers free, the runs must be so many nats less likely.

@@ -60,9 +60,11 @@ TEST(CommandJump, ALateCommandIsNoYieldingScrew) {
 }
 
 /// Of a table as heavy as motor and screw. @param before sensors are read before the row's command sets in
-JumpShares of_a_heavy_table(const std::vector<plant::EffectSetting>& effects, bool before = true, bool with_force = true) {
+JumpShares of_a_heavy_table(const std::vector<plant::EffectSetting>& effects, bool before = true, bool with_force = true,
+                            double motor_friction = 1.0) {
   auto truth = plant::source_axis();
   truth.guide_mass_kg = 90.0;
+  truth.motor.coulomb_N.pos *= motor_friction, truth.motor.coulomb_N.neg *= motor_friction;
   auto nominal = truth;
   nominal.guide_mass_kg *= 1.04;
   truth.effects = effects;
@@ -91,6 +93,13 @@ TEST(CommandJump, BehindAYieldingScrewTheyShowTheScrewsShareOfTheJumpBefore) {
   EXPECT_NEAR(shares.torque, -0.425, 0.15) << "of a rigid axis -1";
   EXPECT_NEAR(shares.force, 0.0, 0.3) << "the table's force does not jump";
   EXPECT_FALSE(of_a_heavy_table({screw}, false).before_command);
+}
+
+// By how late it looks it is not told there: what a motor's great friction takes over its path hides that.
+TEST(CommandJump, SoTheyAreWhereTheMotorsFrictionSetsInOverAPath) {
+  const auto over_a_path = tests::effect("motor_presliding", {{"distance_m", 3e-5}});
+  for (const bool before : {true, false})
+    EXPECT_EQ(of_a_heavy_table({over_a_path}, before, true, 20.0).before_command, before);
 }
 
 TEST(CommandJump, TheClosedLoopReadsThemBeforeTheCommandToo) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/support/made_case.h"
 #include "tests/tools/diagnose/fitted_runs.h"
 #include "tools/diagnose/judge.h"
@@ -52,6 +54,22 @@ TEST(PayloadInMass, ANumberThatIsOffAsNumbersAreIsNone) {
 
 TEST(PayloadInMass, WhatTheRecordingDoesNotSayIsNotTold) {
   EXPECT_FALSE(told(1.6, false).has_value()) << "less than a tenth of what the motor feels by itself";
+}
+
+// What swings between screw and table, and is none of the model, makes the two exchange mass.
+TEST(PayloadInMass, WhatTheScrewGivesAwayTheTableDoesNotCarry) {
+  const double rad_per_m = 2.0 * std::numbers::pi / plant::source_axis().axis.lead_m;
+  const auto told_where_the_screw_gives = [&](double share_of_the_payload) {
+    auto truth = plant::source_axis(), nominal = truth;
+    const double more_kg = 4.0 * truth.guide_mass_kg;
+    truth.guide_mass_kg += more_kg;
+    nominal.ball_screw_inertia_kgm2 += share_of_the_payload * more_kg / (rad_per_m * rad_per_m);
+    const std::vector runs{run_of(truth, true)};
+    const tests::FittedRuns fitted(runs, nominal);
+    return payload_in_mass(fitted.fitter, fitted.fit, robust_covariance(fitted.model, fitted.fit)).has_value();
+  };
+  EXPECT_FALSE(told_where_the_screw_gives(1.0));
+  EXPECT_TRUE(told_where_the_screw_gives(0.2));
 }
 
 /// Of a table that is twice as heavy as the file has it, on a screw whose friction is so many times the file's.

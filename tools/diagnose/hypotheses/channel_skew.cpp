@@ -4,6 +4,7 @@
 
 #include "tools/diagnose/hypotheses/registry.h"
 #include "tools/diagnose/samples_later.h"
+#include "tools/diagnose/shown_shift.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -31,6 +32,11 @@ bool finding(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
   return std::max(q[0], q[1]) > 1.1e-3;
 }
 
+/// By the sensor that is the later one.
+bool shown(const std::vector<Track>& runs, std::span<const double> q) {
+  return surely_shifted(shown_shift(runs, q[0] > q[1] ? &Track::torque_sensor_N : &Track::force_sensor_N));
+}
+
 }  // namespace
 
 Hypothesis channel_skew() {
@@ -50,6 +56,7 @@ Hypothesis channel_skew() {
       .absorbed = true,
       .least_strength = 0.1,     // of a quiet sensor's half a newton: its channel has the last word
       .least_error_ratio = 2.0,  // what pre-sliding and a yielding screw leave looks late too: 1.04 to 1.6, true ones 3
+      .shown = shown,
       .least_error_ratio_polished = 1.3,  // three true ones 1.44 to 1.99, four false ones 1.10 to 1.18, likelier all
       .only_readings = true,
       .finding = finding,
