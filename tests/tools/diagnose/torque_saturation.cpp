@@ -30,5 +30,17 @@ TEST(TorqueSaturation, IsLookedForUpToTheLargestCommand) {
   }
 }
 
+// With all but a newton of its torque cut off a residual may look like anything; an axis would stand still.
+TEST(TorqueSaturation, IsNoLimitThatTheFrictionWouldHold) {
+  const auto& limit = hypothesis("torque_saturation");
+  auto axis = plant::source_axis();
+  const double friction_N = 0.5 * (axis.motor.coulomb_N.pos + axis.motor.coulomb_N.neg + axis.ball_screw.coulomb_N.pos +
+                                   axis.ball_screw.coulomb_N.neg + axis.guide.coulomb_N.pos + axis.guide.coulomb_N.neg);
+  EXPECT_FALSE(possible({&limit, {1.0, 1.0}}, axis));
+  EXPECT_FALSE(possible({&limit, {1.0, 0.4 * friction_N}}, axis));
+  EXPECT_TRUE(possible({&limit, {1.0, 0.8 * friction_N}}, axis)) << "the friction's numbers may be wrong";
+  EXPECT_FALSE(possible({&limit, {0.3, 2.0 * friction_N}}, axis)) << "a third of what is beyond";
+}
+
 }  // namespace
 }  // namespace feedtwin

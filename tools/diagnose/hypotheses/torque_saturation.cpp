@@ -29,8 +29,17 @@ Grid limits_of(const std::vector<Track>& runs) {
   return grid;
 }
 
-bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 0.5;
+double mean_of(const plant::Directional& friction_N) {
+  return 0.5 * (friction_N.pos + friction_N.neg);
+}
+
+/// A drive that can't overcome the axis's friction would not have moved it; the friction's numbers may be as far off as
+/// this.
+bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
+  constexpr double least_of_friction = 0.5;
+  const double friction_N =
+      mean_of(axis.motor.coulomb_N) + mean_of(axis.ball_screw.coulomb_N) + mean_of(axis.guide.coulomb_N);
+  return q[0] > 0.5 && q[1] > least_of_friction * friction_N;
 }
 
 }  // namespace
