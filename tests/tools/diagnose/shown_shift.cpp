@@ -54,15 +54,15 @@ TEST(ShownShift, OneSampleIsHowASensorIsRead) {
   EXPECT_TRUE(shown_a_sample_later(shown));
   EXPECT_FALSE(surely_shifted(shown));
   for (const auto& at_once : {shown_by({1.0}), shown_by({0.6, 0.4})}) {
-    EXPECT_FALSE(shown_a_sample_later(at_once));
+    EXPECT_FALSE(shown_a_sample_later(at_once)) << at_once.samples;
     EXPECT_FALSE(surely_shifted(at_once));
   }
 }
 
 // As late in the mean as the first two of these cases: what swings answers again and again.
 TEST(ShownShift, WhatIsSpreadOverManySamplesIsNone) {
-  EXPECT_FALSE(surely_shifted(shown_by({0.0, 0.1, 0.3, 0.4, -0.1, -0.1, 0.3, 0.2, -0.1, -0.1, 0.2})));
-  EXPECT_FALSE(shown_a_sample_later(shown_by({0.3, 0.6, 0.1, -0.3, 0.1, 0.3, -0.2})));
+  EXPECT_FALSE(surely_shifted(shown_by({0.0, 0.0, 0.1, 0.3, 0.4, -0.1, -0.1, 0.3, 0.2, -0.1, -0.1, 0.2})));
+  EXPECT_FALSE(shown_a_sample_later(shown_by({0.1, 0.6, 0.3, -0.3, 0.2, 0.3, -0.3})));
 }
 
 TEST(ShownShift, NoiseThatHidesTheAnswerLeavesItOpen) {
