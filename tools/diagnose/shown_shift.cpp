@@ -85,7 +85,7 @@ bool surely_shifted(const ShownShift& shown) {
 
 bool shown_a_sample_later(const ShownShift& shown) {
   // of these 142 torque sensors showed it in one piece: one simulator's 13 after 1.10 to 1.40 samples, the others' after
-  // 0.70 at most, but for lags of the current loop and late commands after 1.11 to 1.23, and one after 1.91
+  // 0.70 at most, but for lags of the current loop and late commands after 1.11 to 1.91
   constexpr double later_than = 0.8, no_later_than = 1.6, in_one_piece = 0.8;
   return shown.samples > later_than && shown.samples < no_later_than && shown.share > in_one_piece &&
          shown.deviations > clearly;
