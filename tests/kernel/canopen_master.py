@@ -41,7 +41,8 @@ class Master:
             if message is not None:
                 self.take(message)
 
-    def wait_for(self, identifier, seconds=1.0, what=lambda data: True):
+    def heard(self, identifier, seconds, what=lambda data: True):
+        """The first such frame; None when none comes in time."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             message = self.bus.recv(left)
@@ -50,17 +51,18 @@ class Master:
             self.take(message)
             if message.arbitration_id == identifier and what(bytes(message.data)):
                 return bytes(message.data)
-        sys.exit(f"nothing came on {identifier:#x}")
+        return None
+
+    def wait_for(self, identifier, seconds=1.0, what=lambda data: True):
+        data = self.heard(identifier, seconds, what)
+        return data if data is not None else sys.exit(f"nothing came on {identifier:#x}")
 
     def reset(self, tries=20):
         """NMT reset, again until the node answers: a server that was just started may not listen yet."""
         for _ in range(tries):
             self.send(0x000, bytes([0x81, NODE]))
-            end = time.monotonic() + 0.5
-            while (left := end - time.monotonic()) > 0:
-                message = self.bus.recv(left)
-                if message is not None and message.arbitration_id == 0x700 + NODE and bytes(message.data) == b"\0":
-                    return
+            if self.heard(0x700 + NODE, 0.5, lambda data: data == b"\0") is not None:
+                return
         sys.exit("no boot-up came")
 
     # SDO client

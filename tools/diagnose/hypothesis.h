@@ -110,6 +110,9 @@ struct NamedValue {
 
 enum class Where { position, velocity, time, reversal, order, frequency };
 
+/// Without a name the closed loop is so many times as far off at least.
+inline constexpr double usual_error_ratio = 1.015;
+
 struct Hypothesis {
   std::string_view id;
   std::string_view told_as = {};  ///< id that it is told under, where another law of the same physics has that; see told_id
@@ -136,7 +139,7 @@ struct Hypothesis {
   /// Without it the closed loop must be this many times as far off in some channel on the runs of the fit. On practice and
   /// challenge cases, seen on held-out runs, right names made 1.048 and more, a third of the wrong ones less than 1.02; what
   /// laps of EMPS that nobody fitted bear out made 1.018 and 1.020.
-  double least_error_ratio = 1.015;
+  double least_error_ratio = usual_error_ratio;
   /// Do the recordings show it by themselves, whatever the model? Coming closer is enough then; nullptr: no.
   bool (*shown)(const std::vector<Track>& runs, std::span<const double> q) = nullptr;
   /// So many where both, with it and without, are polished before that is asked again.

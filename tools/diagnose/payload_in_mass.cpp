@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "tools/diagnose/hypotheses/shapes.h"
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/sentence.h"
 #include "tools/intervals.h"
@@ -13,6 +13,12 @@ namespace feedtwin::tools::diagnosis {
 namespace {
 
 constexpr double least_tolerances = 4.0, least_deviations = 8.0;
+
+/// Among the recalibrated numbers; none: it is none of them.
+std::optional<Index> place_of(const Fitter& fitter, std::string_view key) {
+  const auto one = std::ranges::find(fitter.base(), key, [](const BaseParameter& base) { return base.entry->key; });
+  return one == fitter.base().end() ? std::nullopt : std::optional<Index>(one - fitter.base().begin());
+}
 
 /// Is the screw's Coulomb friction, both ways, off by more than a data sheet's could be? Numbers that were fitted under a
 /// lead that is wrong are all off by what the lead is.
@@ -30,26 +36,22 @@ bool friction_is_another(const Fitter& fitter, const plant::AxisParameters& axis
 /// to two fifths.
 bool only_exchanged(const Fitter& fitter, const plant::AxisParameters& axis, double more_kg) {
   constexpr double far_tolerances = 4.0, most_share = 0.5;
-  const double rad_per_m = 2.0 * std::numbers::pi / axis.axis.lead_m;
-  const double screw_kg = rad_per_m * rad_per_m * (axis.ball_screw_inertia_kgm2 - fitter.nominal().ball_screw_inertia_kgm2);
-  const Vector off = fitter.deviations(axis);
-  const auto screw =
-      std::ranges::find(fitter.base(), "ball_screw.inertia_kgm2", [](const BaseParameter& one) { return one.entry->key; });
-  return screw != fitter.base().end() && off[screw - fitter.base().begin()] < -far_tolerances &&
-         more_kg + screw_kg < most_share * more_kg;
+  const auto screw = place_of(fitter, "ball_screw.inertia_kgm2");
+  if (!screw || fitter.deviations(axis)[*screw] > -far_tolerances) return false;
+  const double k = per_lead(axis.axis);
+  const double screw_kg = k * k * (axis.ball_screw_inertia_kgm2 - fitter.nominal().ball_screw_inertia_kgm2);
+  return more_kg + screw_kg < most_share * more_kg;
 }
 
 }  // namespace
 
 std::optional<NamedEffect> payload_in_mass(const Fitter& fitter, const Fit& fit, const Eigen::MatrixXd& covariance) {
   const Hypothesis& own = hypothesis("payload");
-  const auto mass =
-      std::ranges::find(fitter.base(), "guide.mass_kg", [](const BaseParameter& one) { return one.entry->key; });
-  if (mass == fitter.base().end() || has(fit.model, own)) return std::nullopt;
-  const Index place = mass - fitter.base().begin();
-  const double tolerance_kg = fitter.tolerance(static_cast<std::size_t>(place));
-  const double more_kg = value_of(*mass, fit.model.axis) - value_of(*mass, fitter.nominal());
-  const double deviation_kg = tolerance_kg * std::sqrt(std::max(0.0, covariance(place, place)));
+  const auto place = place_of(fitter, "guide.mass_kg");
+  if (!place || has(fit.model, own)) return std::nullopt;
+  const double tolerance_kg = fitter.tolerance(static_cast<std::size_t>(*place));
+  const double more_kg = fit.model.axis.guide_mass_kg - fitter.nominal().guide_mass_kg;
+  const double deviation_kg = tolerance_kg * std::sqrt(std::max(0.0, covariance(*place, *place)));
   if (more_kg < least_tolerances * tolerance_kg || more_kg < least_deviations * deviation_kg ||
       !possible({&own, {more_kg}}, fitter.nominal()) || only_exchanged(fitter, fit.model.axis, more_kg))
     return std::nullopt;

@@ -30,9 +30,8 @@ namespace {
 
 /// Times as far off as with it, without it.
 double least_error_ratio(const Active& effect, const std::vector<Track>& runs) {
-  constexpr double of_what_is_shown = 1.015;
   const Hypothesis& h = *effect.hypothesis;
-  return h.shown != nullptr && h.shown(runs, effect.q) ? of_what_is_shown : h.least_error_ratio;
+  return h.shown != nullptr && h.shown(runs, effect.q) ? usual_error_ratio : h.least_error_ratio;
 }
 
 /// Numbers of the inverse model may simulate so badly that no name's absence shows. Where all that was not seen bears a name
