@@ -12,6 +12,7 @@
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/gain_in_numbers.h"
+#include "tools/diagnose/forward/hidden.h"
 #include "tools/diagnose/forward/missed.h"
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
@@ -82,6 +83,7 @@ class Diagnosing {
     search_anew_if_the_motor_sets_in();
     const auto names_before = fit_.model.effects;
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
+    name_what_they_hid(names_before, forward_, fitter_, found_, fit_, progress_);
     if (settled_ && !same_names(names_before)) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
     const auto names_confirmed = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_, std::move(settled_));
@@ -89,7 +91,7 @@ class Diagnosing {
     unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_);
     if (unknown_) return;
     const auto names_asked = fit_.model.effects;
-    forward_.learn_meter_noise(extended(as_settled()));
+    forward_.learn_meter_noise(extended(settled_ ? settled_->model : fit_.model));
     if (!same_names(names_before)) found_.last = screen(fitter_, fit_, found_.whitening);
     look_again_at_the_runs();
     if (dropped_what_is_not_missed() && look_again_at_the_runs()) dropped_what_is_not_missed();
@@ -109,6 +111,10 @@ class Diagnosing {
     const auto names_then = fit_.model.effects;
     keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
     if (same_names(names_then)) return false;
+    if (name_what_they_hid(names_then, forward_, fitter_, found_, fit_, progress_)) {
+      settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
+      keep_missed(forward_, fitter_, found_, fit_, *settled_, progress_);
+    }
     found_.last = screen(fitter_, fit_, found_.whitening);
     return true;
   }
@@ -136,9 +142,6 @@ class Diagnosing {
     if (more) ask_the_others_again();
     return more;
   }
-
-  /// With the numbers as the closed loop has them, where it was asked.
-  [[nodiscard]] const Candidate& as_settled() const { return settled_ ? settled_->model : fit_.model; }
 
   /// What was named in place of a name that came later goes. A name that the closed loop gave may leave the inverse model
   /// with numbers that simulate nothing well; by those no other can be judged.
@@ -245,10 +248,8 @@ class Diagnosing {
     result_.holdout_inverse = figures(as_given, as_recalibrated, as_told);
     result_.force_error = force_errors(as_given, as_recalibrated, as_told);
     result_.holdout = figures(simulated, data_.axis, extended(recalibrated_only), updated_unseen);
-    std::vector<const Hypothesis*> named;
-    for (const auto& effect : result_.effects) named.push_back(effect.hypothesis);
     result_.pictures =
-        pictures(simulated, held_out.tracks(), {data_.axis, extended(recalibrated_only), updated_unseen}, named);
+        pictures(simulated, held_out.tracks(), {data_.axis, extended(recalibrated_only), updated_unseen}, result_.effects);
     result_.energy_before = energy(as_given);
     result_.energy_after = energy(as_told);
   }

@@ -193,6 +193,18 @@ Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without,
   return told;
 }
 
+double largest_beside(const InverseModel& model, const Fit& fit, const std::vector<Fit>& less, std::size_t effect,
+                      const Bar& bar) {
+  const auto own = strengths(model, fit, less[effect], fit.model.effects[effect].hypothesis->about_reversals, bar);
+  const auto equation = static_cast<std::size_t>(std::ranges::max_element(own) - own.begin());
+  const auto there = rows_of(model, fit, less[effect]);
+  double largest = 0.0;
+  for (std::size_t other = 0; other < less.size(); ++other)
+    if (other != effect && worth_naming(fit.model.effects[other], fit.model.axis))
+      largest = std::max(largest, strengths(model, fit, less[other], false, bar, there)[equation]);
+  return largest;
+}
+
 bool hidden_beside(double largest_beside, const Verdict& verdict, const Unseen& unseen, const Bar& bar) {
   const bool leaves_next_to_nothing = unseen.everywhere && verdict.strength > bar.by_itself;
   return !verdict.far_off && !leaves_next_to_nothing && verdict.strength < bar.beside * largest_beside;

@@ -44,6 +44,11 @@ struct Unseen {
 [[nodiscard]] Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
                                const Verdict& verdict, const Bar& bar);
 
+/// Where an effect acts and shows most, the strength of the strongest other one: what its model leaves over is there too.
+/// @param less fits without each effect
+[[nodiscard]] double largest_beside(const InverseModel& model, const Fit& fit, const std::vector<Fit>& less,
+                                    std::size_t effect, const Bar& bar);
+
 /// May it be what an imperfect model of a stronger effect leaves over?
 /// @param largest_beside the strength of the strongest other one, where this one acts
 [[nodiscard]] bool hidden_beside(double largest_beside, const Verdict& verdict, const Unseen& unseen, const Bar& bar);

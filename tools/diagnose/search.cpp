@@ -6,10 +6,13 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
+#include "tools/diagnose/exchange.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/preferred.h"
+#include "tools/diagnose/strikes.h"
 #include "tools/diagnose/whole_number.h"
 #include "tools/diagnose/wider_stribeck.h"
 
@@ -18,7 +21,18 @@ namespace {
 
 constexpr int rounds = 3;
 /// Of the best hypotheses that are refitted; of which none is enough.
-constexpr std::size_t refitted = 4, refitted_for_one = 10, rivals_tried = 4;
+constexpr std::size_t refitted = 4, refitted_for_one = 10;
+
+/// That the numbers are as far off as they would have to be without it, for any of the hypotheses.
+double chance_by_numbers(const Verdict& verdict) {
+  return std::min(1.0, std::exp(-0.5 * verdict.surprise) * static_cast<double>(hypotheses().size()));
+}
+
+/// What is known of a name stays, with its numbers as they are now.
+Found as_known(Found known, const Found& now) {
+  known.effect = now.effect, known.gain = now.gain, known.strength = now.strength;
+  return known;
+}
 
 class Search {
  public:
@@ -31,17 +45,45 @@ class Search {
     const Whitening of_nominal = whitening_ = fitter_.colour_of(fitter_.model().residual(nominal.axis, {}));
     progress_("recalibrating the nominal numbers");
     take(nominal, rounds);
-    try_wider_stribeck();
+    if (const auto wider = with_wider_stribeck(fitter_, fit_, whitening_, progress_)) take(wider->model, rounds);
     result.recalibrated = fit_;
     if (!try_what_strikes(fitter_.linearised(nominal, of_nominal), of_nominal)) try_what_strikes(fit_, whitening_);
+    add_and_drop();
+    return told(std::move(result));
+  }
+
+  std::optional<SearchResult> run_on(SearchResult before, const Fit& now, const std::set<const Hypothesis*>& not_these) {
+    whitening_ = before.whitening, dropped_ = gave_way_ = not_these;
+    fit_ = fitter_.fit(now.model, whitening_, refit_iterations);
+    for (const Active& effect : fit_.model.effects) {
+      const Found* known = before.of(effect.hypothesis);
+      chances_.push_back(known == nullptr ? 1.0 : known->p_false_alarm);
+    }
+    earlier_.resize(chances_.size());
+    if (!add_and_drop()) return std::nullopt;
+    SearchResult result = told({before.recalibrated, {}, {}, {}, {}});
+    for (Found& one : result.found)
+      if (const Found* known = before.of(one.effect.hypothesis)) one = as_known(*known, one);
+    return result;
+  }
+
+ private:
+  /// True where a name came.
+  bool add_and_drop() {
+    bool any = false;
     for (std::size_t step = 0; step < 3 * bar_.most_effects; ++step) {
       progress_(fmt::format("asking {} hypotheses about the residual", hypotheses().size()));
       last_ = screen(fitter_, fit_, whitening_);
       progress_(in_words(last_));
       if (fit_.model.effects.size() >= bar_.most_effects || !add_best()) break;
+      any = true;
       drop_needless();
     }
     drop_needless();
+    return any;
+  }
+
+  SearchResult told(SearchResult result) {
     confirm(result);
     result.final = fit_;
     result.whitening = whitening_;
@@ -49,7 +91,6 @@ class Search {
     return result;
   }
 
- private:
   /// The model from here on, refitted with a colour of its own.
   void take(const Candidate& model, int colours = 2) {
     fit_ = fitter_.fit_with_colour(model, whitening_, colours, refit_iterations);
@@ -82,30 +123,13 @@ class Search {
     return lacking_.emplace(effect, fitter_.fit(without(fit_.model, effect), whitening_, refit_iterations)).first->second;
   }
 
-  void try_wider_stribeck() {
-    const auto wider = with_wider_stribeck(fitter_, fit_, whitening_, 2 * refit_iterations);
-    if (!wider) return;
-    progress_(
-        fmt::format("a Stribeck velocity of {:.2g} m/s explains more", wider->model.axis.ball_screw.stribeck_m_per_s.pos));
-    take(wider->model, rounds);
-  }
-
-  /// What strikes once, harder than everything else pushes, bends all numbers until it no longer shows as itself: it is
-  /// asked for beside the nominal ones too, and without chance's leave: signs drawn at random leave one event what it is.
   bool try_what_strikes(const Fit& before, const Whitening& colour) {
-    constexpr double asked_at = 0.2, most_left = 0.5;  // of the cost: its place is not known well, before it is fitted
-    const auto scores = scores_of({&hypothesis("hard_stop")}, fitter_, before, colour);
-    if (scores.empty() || scores.front().gain < asked_at * before.cost) return false;
-    const Fit struck = fit_with(fitter_, before.model, scores.front(), 0, whitening_, refit_iterations);
-    const Active& effect = struck.model.effects.front();
-    progress_(fmt::format("  {}: {:.2g} times the cost of the numbers alone", in_words(effect, struck.model.axis),
-                          struck.cost / fit_.cost));
-    if (!possible(effect, struck.model.axis) || struck.cost > most_left * fit_.cost) return false;
-    progress_("adding " + in_words(effect, struck.model.axis));
-    const auto verdict = judged(fitter_, struck, fit_, *effect.hypothesis, bar_);
-    chances_.push_back(std::min(1.0, std::exp(-0.5 * verdict.surprise) * static_cast<double>(hypotheses().size())));
-    earlier_.push_back(scores);
-    take(struck.model, rounds);
+    auto struck = what_strikes(fitter_, before, colour, fit_, whitening_, progress_);
+    if (!struck) return false;
+    const Hypothesis& striking = *struck->fit.model.effects.front().hypothesis;
+    chances_.push_back(chance_by_numbers(judged(fitter_, struck->fit, fit_, striking, bar_)));
+    earlier_.push_back(std::move(struck->scores));
+    take(struck->fit.model, rounds);
     return true;
   }
 
@@ -135,7 +159,7 @@ class Search {
                             in_words(fit.model.effects.back(), fit.model.axis), verdict.gain, verdict.surprise,
                             verdict.strength));
       if (!verdict.enough || (by_chance && !verdict.far_off)) continue;
-      if (by_chance) p = std::min(1.0, std::exp(-0.5 * verdict.surprise) * static_cast<double>(hypotheses().size()));
+      if (by_chance) p = chance_by_numbers(verdict);
       const double value = verdict.gain - bar_.per_parameter * static_cast<double>(freedom(*score.hypothesis));
       enough.push_back({std::move(fit), value, p});
     }
@@ -177,57 +201,24 @@ class Search {
     }
   }
 
-  /// Puts an equal or better one in an effect's place where there is one; notes those that fit as well.
-  bool exchange(std::size_t i, const Fit& less, double gain, Found& found) {
-    const auto own_score = std::ranges::find(earlier_[i], found.effect.hypothesis, &Score::hypothesis);
-    const double own = own_score == earlier_[i].end() ? 0.0 : own_score->gain;
-    std::size_t tried = 0;
-    for (const auto& score : earlier_[i]) {
-      const auto* rival = score.hypothesis;
-      if (has(fit_.model, *rival) || gave_way_.contains(rival)) continue;
-      if (score.gain < 0.7 * own || last_.leaves_to(score) || ++tried > rivals_tried) continue;
-      const Fit fit = fit_with(fitter_, less.model, score, less.model.effects.size(), whitening_, refit_iterations);
-      const Active& other = fit.model.effects.back();
-      if (!worth_naming(other, fit.model.axis) || !possible(other, fit.model.axis)) continue;
-      const auto verdict = judged(fitter_, fit, less, *rival, bar_);
-      if (!verdict.enough || !may_be_missed_enough(other, verdict.gain)) continue;
-      const double more = bar_.per_parameter *
-                          (static_cast<double>(freedom(*rival)) - static_cast<double>(freedom(*found.effect.hypothesis)));
-      const double worse = fit.cost + more - fit_.cost;
-      if (worse < -clearly_better(*rival, *found.effect.hypothesis, gain)) {
-        progress_(fmt::format("{} in place of {}", rival->id, found.effect.hypothesis->id));
-        dropped_.insert(found.effect.hypothesis);
-        gave_way_.insert(found.effect.hypothesis);
-        chances_[i] = last_.p_false_alarm(score.standard);
-        Candidate swapped = fit.model;  // in the same place
-        std::rotate(swapped.effects.begin() + static_cast<std::ptrdiff_t>(i), swapped.effects.end() - 1,
-                    swapped.effects.end());
-        take(swapped);
-        return true;
-      }
-      if (worse < std::min(0.03 * gain, 0.005 * fit_.cost) + 15.0) found.rivals.push_back(rival);
-    }
-    return false;
+  /// Puts a better one in an effect's place where there is one; notes those that fit as well.
+  bool exchange(std::size_t i, const Fit& less, double gain, std::vector<const Hypothesis*>& rivals) {
+    const auto* named = fit_.model.effects[i].hypothesis;
+    const Placed placed{fit_, less, i, gain, earlier_[i]};
+    const auto better = exchanged(fitter_, bar_, whitening_, placed, last_, gave_way_, rivals);
+    if (!better) return false;
+    progress_(fmt::format("{} in place of {}", better->by->hypothesis->id, named->id));
+    dropped_.insert(named);
+    gave_way_.insert(named);
+    chances_[i] = last_.p_false_alarm(better->by->standard);
+    take(better->model);
+    return true;
   }
 
   /// The last question to each: does it hold on stretches that it was not fitted to, and could another stand for it?
   void confirm(SearchResult& result) {
     while (!settled(result)) result.found.clear();
     std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
-  }
-
-  /// Where an effect acts and shows most, the strength of the strongest other one: what its model leaves over is there too.
-  /// @param less fits without each effect
-  [[nodiscard]] double largest_beside(std::size_t effect, const std::vector<Fit>& less) const {
-    const auto& model = fitter_.model();
-    const auto own = strengths(model, fit_, less[effect], fit_.model.effects[effect].hypothesis->about_reversals, bar_);
-    const auto equation = static_cast<std::size_t>(std::ranges::max_element(own) - own.begin());
-    const auto there = rows_of(model, fit_, less[effect]);
-    double largest = 0.0;
-    for (std::size_t other = 0; other < less.size(); ++other)
-      if (other != effect && worth_naming(fit_.model.effects[other], fit_.model.axis))
-        largest = std::max(largest, strengths(model, fit_, less[other], false, bar_, there)[equation]);
-    return largest;
   }
 
   /// False when an effect was taken out or exchanged, so that all must be asked again.
@@ -251,7 +242,7 @@ class Search {
                             effect.hypothesis->id, verdict.gain, unseen.gain, unseen.folds, bar_.folds, verdict.surprise,
                             verdict.strength));
       everywhere[i] = unseen.everywhere;
-      const bool hidden = hidden_beside(largest_beside(i, less), verdict, unseen, bar_);
+      const bool hidden = hidden_beside(largest_beside(fitter_.model(), fit_, less, i, bar_), verdict, unseen, bar_);
       if (!unseen.holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
         drop(i, less[i].model, verdict);
         return false;
@@ -265,7 +256,7 @@ class Search {
       const double share = std::clamp(verdicts[i].gain / (verdicts[i].gain + std::min(touched, fit_.cost)), 0.0, 1.0);
       Found found{effect,        verdicts[i].gain,   share, verdicts[i].strength, chances_[i], {},
                   everywhere[i], verdicts[i].far_off};
-      if (exchange(i, less[i], verdicts[i].gain, found)) return false;
+      if (exchange(i, less[i], verdicts[i].gain, found.rivals)) return false;
       result.found.push_back(std::move(found));
     }
     return true;
@@ -294,6 +285,12 @@ Found* SearchResult::of(const Hypothesis* hypothesis) {
 
 SearchResult search(const Fitter& fitter, const Bar& bar, const std::function<void(std::string_view)>& progress) {
   return Search(fitter, bar, progress).run();
+}
+
+std::optional<SearchResult> search_on(const Fitter& fitter, const Bar& bar, const SearchResult& before, const Fit& now,
+                                      const std::set<const Hypothesis*>& not_these,
+                                      const std::function<void(std::string_view)>& progress) {
+  return Search(fitter, bar, progress).run_on(before, now, not_these);
 }
 
 }  // namespace feedtwin::tools::diagnosis

@@ -4,6 +4,8 @@
 // taken its place.
 
 #include <functional>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -69,5 +71,13 @@ struct SearchResult {
 /// @param progress called with what is being done
 [[nodiscard]] SearchResult search(const Fitter& fitter, const Bar& bar,
                                   const std::function<void(std::string_view)>& progress);
+
+/// Once more, where the other engine has taken names away: what they hid is asked for beside those that are left.
+/// @param now the best model without them
+/// @param not_these that were taken away
+/// @return nothing, where no name came
+[[nodiscard]] std::optional<SearchResult> search_on(const Fitter& fitter, const Bar& bar, const SearchResult& before,
+                                                    const Fit& now, const std::set<const Hypothesis*>& not_these,
+                                                    const std::function<void(std::string_view)>& progress);
 
 }  // namespace feedtwin::tools::diagnosis

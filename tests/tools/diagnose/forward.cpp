@@ -7,6 +7,7 @@
 
 #include "plant/effects/registry.h"
 #include "tests/support/made_case.h"
+#include "tests/tools/diagnose/named_effect.h"
 #include "tools/diagnose/forward/confirm.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/forward/pictures.h"
@@ -274,7 +275,8 @@ TEST(Pictures, ShowLessLeftOverAfterThanBefore) {
   const ForwardModel held_out(data.holdout, data);
   const Track track = make_track(data.holdout.front(), data.axis);
   const auto updated = extended({plant::source_axis(), {cogging(amplitude_Nm)}});
-  const auto figures = pictures(held_out, {track}, {data.axis, plant::source_axis(), updated}, {&hypothesis("cogging")});
+  const auto figures = pictures(held_out, {track}, {data.axis, plant::source_axis(), updated},
+                                {tests::named("cogging", "amplitude_Nm", amplitude_Nm)});
   ASSERT_GE(figures.size(), 5U);  // over the angle, position, speed, time since reversal, time
   EXPECT_EQ(figures[0].x.unit, "deg");
   const auto rms = [](const tools::FigureSeries& series) {

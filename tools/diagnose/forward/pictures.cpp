@@ -117,7 +117,7 @@ Figure figure(const Abscissa& against, std::string_view name, std::string_view u
 }  // namespace
 
 std::vector<Figure> pictures(const ForwardModel& forward, const std::vector<Track>& tracks, const Stages& stages,
-                             const std::vector<const Hypothesis*>& named) {
+                             const std::vector<NamedEffect>& named) {
   const auto before = forward.simulate(named.empty() ? stages.nominal : stages.recalibrated);
   const auto after = forward.simulate(stages.updated);
   const double lead_m = stages.nominal.common.axis.lead_m;
@@ -132,7 +132,8 @@ std::vector<Figure> pictures(const ForwardModel& forward, const std::vector<Trac
     const auto kind = std::ranges::find(channel_kinds(), name, &ChannelKind::name);
     if (!left.value.empty()) figures.push_back(figure(*against, name, kind->unit, tracks, lead_m, left, still, what));
   };
-  for (const auto* hypothesis : named) show(hypothesis->channel, hypothesis->where, std::string(told_id(*hypothesis)));
+  for (const NamedEffect& one : named)
+    show(one.hypothesis->channel, one.hypothesis->where, std::string(told_id(*one.hypothesis)));
   const std::string all = named.empty() ? "recalibration" : "the whole mismatch";
   for (const auto where : {Where::position, Where::velocity, Where::reversal, Where::time})
     show(channel::torque_cmd_Nm, where, all);

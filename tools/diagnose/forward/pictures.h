@@ -2,6 +2,7 @@
 // Where the mismatch lives, before and after, on runs that were not fitted: what the closed-loop simulation leaves over,
 // against position, speed, time since reversal and time, and against what each named effect depends on.
 
+#include "tools/diagnose/diagnosis.h"
 #include "tools/diagnose/forward/forward_model.h"
 #include "tools/report/figure.h"
 
@@ -14,6 +15,6 @@ struct Stages {
 
 /// @param tracks of the same runs, for speed and reversals
 [[nodiscard]] std::vector<Figure> pictures(const ForwardModel& forward, const std::vector<Track>& tracks,
-                                           const Stages& stages, const std::vector<const Hypothesis*>& named);
+                                           const Stages& stages, const std::vector<NamedEffect>& named);
 
 }  // namespace feedtwin::tools::diagnosis
