@@ -13,12 +13,14 @@ namespace {
 
 using namespace tools::diagnosis;
 
-double share_of(const plant::AxisParameters& truth) {
+double share_of(const plant::AxisParameters& truth, bool with_torque = true) {
   auto nominal = plant::source_axis();
   nominal.guide_mass_kg *= 1.04;
   std::vector<tools::Recording> runs;
   for (const char* motion : {"sine", "triangle"})
     runs.push_back(tests::make_recording(truth, {.motion = motion, .duration_s = 6.0, .sensors = true}));
+  if (!with_torque)
+    for (auto& run : runs) run.channels.erase("torque_sensor_Nm");
   return jump_shares(runs, nominal).force;
 }
 
@@ -57,6 +59,12 @@ TEST(CommandJump, ALateSensorIsNoYieldingScrew) {
 
 TEST(CommandJump, ALateCommandIsNoYieldingScrew) {
   EXPECT_EQ(share_of(with(tests::effect("input_delay", {{"delay_s", 8e-4}}))), 1.0);
+}
+
+// The torque sensor would look late too; without it only what is left over tells.
+TEST(CommandJump, NorIsItWithoutATorqueSensor) {
+  EXPECT_EQ(share_of(with(tests::effect("input_delay", {{"delay_s", 4e-4}})), false), 1.0);
+  EXPECT_LT(share_of(with(tests::effect("screw_compliance", {{"stiffness_N_per_m", 3e7}})), false), 0.4);
 }
 
 /// Of a table as heavy as motor and screw. @param before sensors are read before the row's command sets in

@@ -209,6 +209,14 @@ TEST(TorqueGainError, AtItsBoundStandsForSomethingElse) {
   EXPECT_FALSE(can_be(0.01)) << "within its tolerance";
 }
 
+// One of 50 us, on an axis with nothing hidden, looked 70 us late.
+TEST(Hypothesis, WhatAnyDrivesCurrentLoopTakesIsNoFinding) {
+  for (const char* id : {"input_delay", "current_loop_lag"}) {
+    EXPECT_FALSE(worth_naming({&hypothesis(id), {7e-5}}, plant::source_axis())) << id;
+    EXPECT_TRUE(worth_naming({&hypothesis(id), {1.5e-4}}, plant::source_axis())) << id;
+  }
+}
+
 TEST(Hypothesis, ALagAndADelayAreAlikeOnlyWhereBothAreGoneWithinASample) {
   const auto of = [](std::string_view id, double seconds) { return Active{&hypothesis(id), {seconds}}; };
   constexpr double sample_s = 1e-3;

@@ -95,7 +95,7 @@ Grid frequencies(double low_Hz, double high_Hz) {
 }
 
 bool late_beyond_a_model(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 6e-5;
+  return q[0] > 1e-4;
 }
 
 bool gone_within_a_sample(std::span<const double> q, double sample_s) {

@@ -37,7 +37,8 @@ inline constexpr double deviations_of_lags = 14.0;
 /// as much from the mean torque as a delay.
 [[nodiscard]] bool gone_within_a_sample(std::span<const double> q, double sample_s);
 
-/// Of the same: less is how two models of one axis differ, in where within a sample friction and torque stand.
+/// Of the same: less is how two models of one axis differ, in where within a sample friction and torque stand, and what any
+/// drive's current loop takes (one of 50 us looked 70 us late).
 [[nodiscard]] bool late_beyond_a_model(std::span<const double> q, const plant::AxisParameters& axis);
 
 /// A force that waves with a phase of its own in each of up to four runs: sine and cosine of each run, and how often.
