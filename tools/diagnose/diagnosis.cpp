@@ -83,7 +83,6 @@ class Diagnosing {
     search_anew_if_the_motor_sets_in();
     const auto names_before = fit_.model.effects;
     keep_confirmed(forward_, fitter_, found_, fit_, progress_);
-    name_what_they_hid(names_before, forward_, fitter_, found_, fit_, progress_);
     if (settled_ && !same_names(names_before)) settled_ = rule_beside(*settled_, fit_, forward_, fitter_, SlopesOf::anew);
     const auto names_confirmed = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_, std::move(settled_));

@@ -73,6 +73,20 @@ TEST_F(HiddenSpring, NothingIsAskedWhereNoNameWent) {
   EXPECT_TRUE(said_.empty());
 }
 
+TEST_F(HiddenSpring, WhereNoNameComesAllStaysAsItWas) {
+  const Active spring{&hypothesis("cable_spring"), {600.0, 0.0}};
+  fit_ = runs_.fitter.fit_with_colour({data_.axis, {cogging_, spring}}, found_.whitening, 2, 6);
+  Found known;
+  known.effect = spring;
+  found_.found.push_back(known);
+  const double cost = fit_.cost, left_over = found_.whitening.residual_rms(0);
+  EXPECT_FALSE(name_them(before_));
+  EXPECT_FALSE(said_.empty());
+  EXPECT_EQ(fit_.cost, cost);
+  EXPECT_EQ(found_.whitening.residual_rms(0), left_over);
+  EXPECT_EQ(found_.found.size(), 2U);
+}
+
 TEST_F(HiddenSpring, WhatWentIsNotAskedForAgain) {
   before_.push_back({&hypothesis("cable_spring"), {600.0, 0.0}});
   name_them(before_);

@@ -1,5 +1,6 @@
 #include "tools/diagnose/forward/hidden.h"
 
+#include <algorithm>
 #include <set>
 
 #include "tools/diagnose/forward/confirm.h"
@@ -8,22 +9,20 @@ namespace feedtwin::tools::diagnosis {
 
 bool name_what_they_hid(const std::vector<Active>& before, const ForwardModel& forward, const Fitter& fitter,
                         SearchResult& found, Fit& fit, const std::function<void(std::string_view)>& progress) {
-  constexpr int most_rounds = 2;
-  bool any = false;
   std::set<const Hypothesis*> gone;
-  std::vector<Active> names = before;
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::size_t known = gone.size();
-    for (const Active& then : names)
-      if (!has(fit.model, *then.hypothesis)) gone.insert(then.hypothesis);
-    if (gone.size() == known) break;
-    auto more = search_on(fitter, bar_for(fitter.nominal()), found, fit, gone, progress);
-    if (!more) break;
-    found = std::move(*more), fit = found.final, any = true;
-    names = fit.model.effects;
-    keep_confirmed(forward, fitter, found, fit, progress);
-  }
-  return any;
+  for (const Active& then : before)
+    if (!has(fit.model, *then.hypothesis)) gone.insert(then.hypothesis);
+  if (gone.empty()) return false;
+  auto more = search_on(fitter, bar_for(fitter.nominal()), found, fit, gone, progress);
+  if (!more) return false;
+  Fit with = more->final;
+  keep_confirmed(forward, fitter, *more, with, progress);
+  const auto is_new = [&](const Active& now) {
+    return !has(fit.model, *now.hypothesis) && worth_naming(now, with.model.axis);
+  };
+  if (std::ranges::none_of(with.model.effects, is_new)) return false;
+  found = std::move(*more), fit = std::move(with);
+  return true;
 }
 
 }  // namespace feedtwin::tools::diagnosis
