@@ -58,6 +58,7 @@ class Search {
     for (const Active& effect : fit_.model.effects) {
       const Found* known = before.of(effect.hypothesis);
       chances_.push_back(known == nullptr ? 1.0 : known->p_false_alarm);
+      if (known != nullptr && known->by_closed_loop) vouched_for_.insert(effect.hypothesis);
     }
     earlier_.resize(chances_.size());
     if (!add_and_drop()) return std::nullopt;
@@ -193,7 +194,8 @@ class Search {
         const auto& active = fit_.model.effects[i];
         const Fit& other = lacking(i);
         const auto verdict = judged(fitter_, fit_, other, *active.hypothesis, bar_);
-        const bool needed = verdict.enough && possible(active, fit_.model.axis);
+        const bool needed =
+            vouched_for_.contains(active.hypothesis) || (verdict.enough && possible(active, fit_.model.axis));
         if (needed || verdict.gain > least) continue;
         least = verdict.gain, weakest = i, less = other.model, why = verdict, again = true;
       }
@@ -243,6 +245,7 @@ class Search {
                             verdict.strength));
       everywhere[i] = unseen.everywhere;
       const bool hidden = hidden_beside(largest_beside(fitter_.model(), fit_, less, i, bar_), verdict, unseen, bar_);
+      if (vouched_for_.contains(effect.hypothesis)) continue;
       if (!unseen.holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
         drop(i, less[i].model, verdict);
         return false;
@@ -272,6 +275,7 @@ class Search {
   Screen last_;
   std::vector<double> chances_;
   std::vector<std::vector<Score>> earlier_;  ///< what else was in question when each was added
+  std::set<const Hypothesis*> vouched_for_;  ///< by the closed loop, which alone asked for it: the inverse model has no say
   std::set<const Hypothesis*> dropped_;      ///< not asked again, so that the search ends
   std::set<const Hypothesis*> gave_way_;     ///< to another: not put back in its place, of two that are nearly one
 };

@@ -87,6 +87,22 @@ TEST_F(HiddenSpring, WhereNoNameComesAllStaysAsItWas) {
   EXPECT_EQ(found_.found.size(), 2U);
 }
 
+TEST_F(HiddenSpring, WhatTheClosedLoopAloneAskedForStays) {
+  const Active drag{&hypothesis("quadratic_drag"), {1.0}};
+  fit_ = runs_.fitter.fit_with_colour({data_.axis, {cogging_, drag}}, found_.whitening, 2, 6);
+  for (const bool by_closed_loop : {false, true}) {
+    SearchResult found = found_;
+    Found known;
+    known.effect = drag;
+    known.by_closed_loop = by_closed_loop;
+    found.found.push_back(known);
+    const auto more = search_on(runs_.fitter, Bar{}, found, fit_, {&hypothesis("torque_offset")}, [](std::string_view) {});
+    ASSERT_TRUE(more);
+    EXPECT_EQ(has(more->final.model, hypothesis("quadratic_drag")), by_closed_loop);
+    EXPECT_TRUE(has(more->final.model, hypothesis("cable_spring")));
+  }
+}
+
 TEST_F(HiddenSpring, WhatWentIsNotAskedForAgain) {
   before_.push_back({&hypothesis("cable_spring"), {600.0, 0.0}});
   name_them(before_);
