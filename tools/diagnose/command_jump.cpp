@@ -26,11 +26,15 @@ double left_on_the_table(const InverseModel& model, const Fit& fit) {
   return squares;
 }
 
-/// What a screw that yields leaves over of the table's force. @param share as it is returned
-double left_behind_a_screw_that_yields(const std::vector<Recording>& runs, const Candidate& start, double share) {
-  const InverseModel model(make_tracks(runs, start.axis, {.jump_shares = {.force = share}}), start.axis);
-  return left_on_the_table(model, quickly_fitted(model, start));
-}
+/// The recordings read behind a screw that yields. @param share as it is returned
+struct YieldingScrew {
+  InverseModel model;
+  Fit fit;
+
+  YieldingScrew(const std::vector<Recording>& runs, const plant::AxisParameters& nominal, double share)
+      : model(make_tracks(runs, nominal, {.jump_shares = {.force = share}}), nominal),
+        fit(quickly_fitted(model, {nominal, {}})) {}
+};
 
 /// The recordings read as one body with sensors that are late.
 struct OneBody {
@@ -46,7 +50,19 @@ struct OneBody {
   [[nodiscard]] double half_tick_s() const { return 0.5 * model.tracks().front().sample_s; }
 };
 
-double force_share(const OneBody& one, const std::vector<Recording>& runs, const plant::AxisParameters& nominal) {
+constexpr double clearly_late_s = 1.5e-4;  ///< a command
+
+/// Without a torque sensor a late command is told by what it leaves over.
+bool late_command_leaves_less(const OneBody& one, const YieldingScrew& yielding, const plant::AxisParameters& nominal) {
+  // two late by 0.2 and 0.36 ms left 627 and 334 less than a screw that yields would; of 18 others one that looked late at
+  // all left 7 less, the rest more
+  constexpr double clearly_less = 100.0;
+  const Fit late = quickly_fitted(one.model, {nominal, {{&hypothesis("input_delay"), {0.0}}}});
+  return late.model.effects.back().q[0] > clearly_late_s && late.cost < yielding.fit.cost - clearly_less;
+}
+
+double force_share(const OneBody& one, const std::vector<Recording>& runs, const plant::AxisParameters& nominal,
+                   bool with_torque) {
   constexpr double least_s = 3e-4, most_s = 1.45e-3;  // more is a late sensor
   constexpr double beyond_torque_s = 2.5e-4;          // a late command makes both sensors look late
   // of 55 that yield, of five simulators, a late sensor left 0.92 (N rms) and more of what the yielding left; of two that
@@ -55,9 +71,10 @@ double force_share(const OneBody& one, const std::vector<Recording>& runs, const
   const double late_s = one.force_late_s();
   if (late_s < std::max(least_s, one.torque_late_s() + beyond_torque_s) || late_s > most_s) return 1.0;
   const double share = std::max(-1.0, 1.0 - late_s / one.half_tick_s());
-  const double late = left_on_the_table(one.model, one.fit),
-               yields = left_behind_a_screw_that_yields(runs, {nominal, {}}, share);
-  return late < late_leaves_less * late_leaves_less * yields ? 1.0 : share;
+  const YieldingScrew yielding(runs, nominal, share);
+  const double late = left_on_the_table(one.model, one.fit), yields = left_on_the_table(yielding.model, yielding.fit);
+  if (late < late_leaves_less * late_leaves_less * yields) return 1.0;
+  return !with_torque && late_command_leaves_less(one, yielding, nominal) ? 1.0 : share;
 }
 
 /// Behind a screw that yields the jump moves motor and screw alone.
@@ -82,25 +99,11 @@ bool shown_by_its_jumps(const OneBody& one) {
   return shown_a_sample_later(shown_shift(one.model.tracks(), &Track::torque_sensor_N));
 }
 
-constexpr double clearly_late_s = 1.5e-4;
-
 /// A command that is late makes all sensors look so; it is late for the motion too.
 bool command_is_late(const OneBody& one, const plant::AxisParameters& nominal) {
   const Fit fit =
       quickly_fitted(one.model, {nominal, {{&hypothesis("channel_skew"), {0.0, 0.0}}, {&hypothesis("input_delay"), {0.0}}}});
   return fit.model.effects.back().q[0] > clearly_late_s;
-}
-
-/// Without a torque sensor a late command is told by what it leaves over.
-bool late_command_leaves_less(const OneBody& one, const std::vector<Recording>& runs, const plant::AxisParameters& nominal,
-                              double share) {
-  // two late by 0.2 and 0.36 ms left 627 and 334 less than a screw that yields would; of 18 others one that looked late at
-  // all left 7 less, the rest more
-  constexpr double clearly_less = 100.0;
-  const InverseModel behind(make_tracks(runs, nominal, {.jump_shares = {.force = share}}), nominal);
-  const Fit late = quickly_fitted(one.model, {nominal, {{&hypothesis("input_delay"), {0.0}}}});
-  return late.model.effects.back().q[0] > clearly_late_s &&
-         late.cost < quickly_fitted(behind, {nominal, {}}).cost - clearly_less;
 }
 
 /// By how late each looks: as it does behind a screw that swings too.
@@ -132,8 +135,7 @@ JumpShares jump_shares(const std::vector<Recording>& runs, const plant::AxisPara
   if (with_torque && (as_late_as_before_the_command(one, behind) || shown_by_its_jumps(one)) &&
       !command_is_late(one, nominal))
     return shares_before_the_command(one, by_force);
-  double force = by_force ? force_share(one, runs, nominal) : 1.0;
-  if (force < 1.0 && !with_torque && late_command_leaves_less(one, runs, nominal, force)) force = 1.0;
+  const double force = by_force ? force_share(one, runs, nominal, with_torque) : 1.0;
   const bool yields = force < 1.0 || (by_torque && as_late_as_behind_a_yielding_screw(one, behind));
   return {.torque = yields ? behind : 1.0, .force = force};
 }

@@ -192,10 +192,10 @@ class Search {
       Verdict why;
       for (std::size_t i = 0; i < fit_.model.effects.size(); ++i) {
         const auto& active = fit_.model.effects[i];
+        if (vouched_for_.contains(active.hypothesis)) continue;
         const Fit& other = lacking(i);
         const auto verdict = judged(fitter_, fit_, other, *active.hypothesis, bar_);
-        const bool needed =
-            vouched_for_.contains(active.hypothesis) || (verdict.enough && possible(active, fit_.model.axis));
+        const bool needed = verdict.enough && possible(active, fit_.model.axis);
         if (needed || verdict.gain > least) continue;
         least = verdict.gain, weakest = i, less = other.model, why = verdict, again = true;
       }
@@ -238,6 +238,7 @@ class Search {
     std::ranges::stable_sort(weakest_first, std::less{}, [&](std::size_t i) { return verdicts[i].gain; });
     for (const std::size_t i : weakest_first) {
       const Active& effect = fit_.model.effects[i];
+      if (vouched_for_.contains(effect.hypothesis)) continue;
       const auto& verdict = verdicts[i];
       const Unseen unseen = on_unseen(fitter_.model(), fit_, less[i], *effect.hypothesis, verdict, bar_);
       progress_(fmt::format("{}: gain {:.0f}, on unseen folds {:.0f} in {} of {}, surprise {:.0f}, strength {:.2f}",
@@ -245,7 +246,6 @@ class Search {
                             verdict.strength));
       everywhere[i] = unseen.everywhere;
       const bool hidden = hidden_beside(largest_beside(fitter_.model(), fit_, less, i, bar_), verdict, unseen, bar_);
-      if (vouched_for_.contains(effect.hypothesis)) continue;
       if (!unseen.holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
         drop(i, less[i].model, verdict);
         return false;

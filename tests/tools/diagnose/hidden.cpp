@@ -26,12 +26,10 @@ class HiddenSpring : public testing::Test {
     fit_ = runs_.fitter.fit_with_colour({data_.axis, {cogging_}}, runs_.whitening, 2, 6);
     before_ = fit_.model.effects;
     before_.push_back({&hypothesis("torque_offset"), {0.001}});
-    Found known;
-    known.effect = cogging_;
-    known.error_ratio = 7.0;
     found_.recalibrated = runs_.fit;
     found_.whitening = runs_.whitening;
-    found_.found = {known};
+    found_.found = {known(cogging_)};
+    found_.found.front().error_ratio = 7.0;
   }
 
   static tools::Case made() {
@@ -41,6 +39,11 @@ class HiddenSpring : public testing::Test {
     return tests::short_case(truth, plant::source_axis());
   }
 
+  static Found known(const Active& effect) {
+    Found one;
+    one.effect = effect;
+    return one;
+  }
   bool named(std::string_view id) { return has(fit_.model, hypothesis(id)) && found_.of(&hypothesis(id)) != nullptr; }
   bool name_them(const std::vector<Active>& before) {
     return name_what_they_hid(before, forward_, runs_.fitter, found_, fit_,
@@ -76,9 +79,7 @@ TEST_F(HiddenSpring, NothingIsAskedWhereNoNameWent) {
 TEST_F(HiddenSpring, WhereNoNameComesAllStaysAsItWas) {
   const Active spring{&hypothesis("cable_spring"), {600.0, 0.0}};
   fit_ = runs_.fitter.fit_with_colour({data_.axis, {cogging_, spring}}, found_.whitening, 2, 6);
-  Found known;
-  known.effect = spring;
-  found_.found.push_back(known);
+  found_.found.push_back(known(spring));
   const double cost = fit_.cost, left_over = found_.whitening.residual_rms(0);
   EXPECT_FALSE(name_them(before_));
   EXPECT_FALSE(said_.empty());
@@ -92,10 +93,8 @@ TEST_F(HiddenSpring, WhatTheClosedLoopAloneAskedForStays) {
   fit_ = runs_.fitter.fit_with_colour({data_.axis, {cogging_, drag}}, found_.whitening, 2, 6);
   for (const bool by_closed_loop : {false, true}) {
     SearchResult found = found_;
-    Found known;
-    known.effect = drag;
-    known.by_closed_loop = by_closed_loop;
-    found.found.push_back(known);
+    found.found.push_back(known(drag));
+    found.found.back().by_closed_loop = by_closed_loop;
     const auto more = search_on(runs_.fitter, Bar{}, found, fit_, {&hypothesis("torque_offset")}, [](std::string_view) {});
     ASSERT_TRUE(more);
     EXPECT_EQ(has(more->final.model, hypothesis("quadratic_drag")), by_closed_loop);
