@@ -137,10 +137,11 @@ TEST(PositionFriction, MayBeOfTheViscousPartAlone) {
 
 TEST(PositionFrictionWave, IsOfSlidingFrictionAndLongerThanTheScrewsTurns) {
   const auto axis = plant::source_axis();
-  const double mu = axis.ball_screw.viscous_Ns_per_m.pos, lead_m = axis.axis.lead_m;
+  const double mu = axis.ball_screw.viscous_Ns_per_m.pos;
   const auto can_be = [&](double sliding, double viscous_share, double period_leads) {
-    return possible({&hypothesis("position_friction_wave"), {0.0, sliding, viscous_share * mu, 0.0, period_leads * lead_m}},
-                    axis);
+    return possible(
+        {&hypothesis("position_friction_wave"), {0.0, sliding, viscous_share * mu, 0.0, period_leads * axis.axis.lead_m}},
+        axis);
   };
   EXPECT_TRUE(can_be(0.2, 0.0, 8.0));
   EXPECT_TRUE(can_be(-0.2, 0.2, 8.0)) << "all of the screw's friction";

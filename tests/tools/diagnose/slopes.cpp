@@ -13,7 +13,7 @@ using namespace tools::diagnosis;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Eigen::Index numbers = 3, unknowns = 5;
+constexpr Eigen::Index numbers = 3, all_unknowns = 5;
 
 /// A run whose command is a linear map of the unknowns, and how many points it was asked for.
 struct LinearRun {
@@ -42,12 +42,12 @@ class SlopesOfRandomRuns : public testing::TestWithParam<unsigned> {
  protected:
   SlopesOfRandomRuns() {
     srand(GetParam());
-    run_.map = MatrixXd::Random(20, unknowns);
+    run_.map = MatrixXd::Random(20, all_unknowns);
     const MatrixXd points = differences_somewhere(1e-3);
     slopes_.learn(1, points, run_(points));
     run_.asked = 0;
   }
-  static MatrixXd differences_somewhere(double step) { return forward_differences(VectorXd::Random(unknowns), step); }
+  static MatrixXd differences_somewhere(double step) { return forward_differences(VectorXd::Random(all_unknowns), step); }
   std::vector<tools::Simulated> simulated(std::size_t run, const MatrixXd& points, int shared = numbers) {
     return slopes_.simulated(run, points, shared, [this](const MatrixXd& asked) { return run_(asked); });
   }
@@ -59,7 +59,7 @@ class SlopesOfRandomRuns : public testing::TestWithParam<unsigned> {
 TEST_P(SlopesOfRandomRuns, OnlyTheEffectsOwnUnknownsAreSimulatedAgainAndTheResultIsTheSame) {
   const MatrixXd points = differences_somewhere(-2e-3);
   const auto found = simulated(1, points);
-  EXPECT_EQ(run_.asked, 1 + unknowns - numbers);
+  EXPECT_EQ(run_.asked, 1 + all_unknowns - numbers);
   const auto truth = run_(points);
   ASSERT_EQ(found.size(), truth.size());
   for (std::size_t p = 0; p < found.size(); ++p) {
@@ -71,7 +71,7 @@ TEST_P(SlopesOfRandomRuns, OnlyTheEffectsOwnUnknownsAreSimulatedAgainAndTheResul
 
 TEST_P(SlopesOfRandomRuns, WhereTheEffectsAreTheSameTheirsAreKnownToo) {
   const MatrixXd points = differences_somewhere(1e-3);
-  const auto found = simulated(1, points, unknowns);
+  const auto found = simulated(1, points, all_unknowns);
   EXPECT_EQ(run_.asked, 1);
   const auto truth = run_(points);
   for (std::size_t p = 0; p < found.size(); ++p)
@@ -82,26 +82,26 @@ TEST_P(SlopesOfRandomRuns, WhereTheEffectsAreTheSameTheirsAreKnownToo) {
 TEST_P(SlopesOfRandomRuns, OfAnUnknownThatIsNewItsPointIsSimulated) {
   const Slopes fewer = [&] {
     LinearRun run;
-    run.map = run_.map.leftCols(unknowns - 1);
+    run.map = run_.map.leftCols(all_unknowns - 1);
     Slopes made(1);
-    const MatrixXd points = forward_differences(VectorXd::Random(unknowns - 1), 1e-3);
+    const MatrixXd points = forward_differences(VectorXd::Random(all_unknowns - 1), 1e-3);
     made.learn(0, points, run(points));
     return made;
   }();
   const MatrixXd points = differences_somewhere(1e-3);
-  const auto found = fewer.simulated(0, points, unknowns, [this](const MatrixXd& asked) { return run_(asked); });
+  const auto found = fewer.simulated(0, points, all_unknowns, [this](const MatrixXd& asked) { return run_(asked); });
   EXPECT_EQ(run_.asked, 2);
-  EXPECT_EQ(found.size(), 1U + unknowns);
+  EXPECT_EQ(found.size(), 1U + all_unknowns);
 }
 
 TEST_P(SlopesOfRandomRuns, OfARunThatWasNotSeenEveryPointIsSimulated) {
-  EXPECT_EQ(simulated(0, differences_somewhere(1e-3)).size(), 1U + unknowns);
-  EXPECT_EQ(run_.asked, 1 + unknowns);
+  EXPECT_EQ(simulated(0, differences_somewhere(1e-3)).size(), 1U + all_unknowns);
+  EXPECT_EQ(run_.asked, 1 + all_unknowns);
 }
 
 TEST_P(SlopesOfRandomRuns, PointsThatAreNoDifferencesAreAllSimulated) {
-  EXPECT_EQ(simulated(1, MatrixXd::Random(unknowns, unknowns + 1)).size(), 1U + unknowns);
-  EXPECT_EQ(run_.asked, 1 + unknowns);
+  EXPECT_EQ(simulated(1, MatrixXd::Random(all_unknowns, all_unknowns + 1)).size(), 1U + all_unknowns);
+  EXPECT_EQ(run_.asked, 1 + all_unknowns);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SlopesOfRandomRuns, testing::Range(1U, 6U));
