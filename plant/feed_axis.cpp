@@ -40,7 +40,7 @@ void FeedAxis::place(double position_m, double velocity_m_per_s) noexcept {
   initial_speed_squared_m2_per_s2_ = velocity_m_per_s * velocity_m_per_s;
   throughput_J_ += 0.5 * model_.mass_kg * initial_speed_squared_m2_per_s2_;
   placed_s_ = elapsed_s_;
-  screw_J_when_placed_ = losses_.screw_J;
+  law_friction_J_when_placed_ = law_friction_J();
   if (chain_) chain_->reset(position_m, velocity_m_per_s);
   if (chain_) {
     show_with_effects();
@@ -72,7 +72,7 @@ TickStart FeedAxis::tick_start(const Drive& drive, double tick_s, double span_s)
           .span_s = span_s,
           .state = state_,
           .setpoint_m_per_s = std::isfinite(drive.setpoint_m_per_s) ? drive.setpoint_m_per_s : state_.velocity_m_per_s,
-          .screw_friction_J = losses_.screw_J - screw_J_when_placed_};
+          .law_friction_J = law_friction_J() - law_friction_J_when_placed_};
 }
 
 /// What a tick took, entered into the account. @return drive input, mean over the tick, W

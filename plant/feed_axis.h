@@ -69,6 +69,9 @@ class FeedAxis {
   void show(const SensedTravel& travel, std::int64_t counts) noexcept;
   void show_with_effects() noexcept;
   [[nodiscard]] ForceSignals true_forces(const Drive& drive) const noexcept;
+  [[nodiscard]] double law_friction_J() const noexcept {
+    return parameters_.laws_on_guide() ? losses_.guide_J : losses_.screw_J;
+  }
   [[nodiscard]] double electrical_loss_J(const AxisLosses<double>& losses, double duration_s) const noexcept;
 
   AxisParameters parameters_;
@@ -85,7 +88,7 @@ class FeedAxis {
   double encoder_error_m_ = 0.0;  ///< shown less true shaft angle, as table travel
   double tick_s_ = 1e-3;          ///< of the last step
   double elapsed_s_ = 0.0;
-  double placed_s_ = 0.0, screw_J_when_placed_ = 0.0;  ///< where effects begin to count
+  double placed_s_ = 0.0, law_friction_J_when_placed_ = 0.0;  ///< where effects begin to count
   double input_work_J_ = 0.0;
   double throughput_J_ = 0.0;
   double cutting_J_ = 0.0;

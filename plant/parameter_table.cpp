@@ -10,7 +10,7 @@ using P = AxisParameters;
 
 // key, member, lowest, highest, preset, meaning
 // clang-format off: a line a key
-constexpr std::array table{
+constexpr std::array keys{
     ParameterEntry{"axis.lead_m", [](P& p) -> double& { return p.axis.lead_m; }, 1e-4, 1.0, {}, "p_b, ball screw lead"},
     ParameterEntry{"axis.stroke_m", [](P& p) -> double& { return p.axis.stroke_m; }, 1e-3, 100.0, {}, "distance between the end stops"},
     ParameterEntry{"axis.stroke_centre_m", [](P& p) -> double& { return p.axis.stroke_centre_m; }, -100.0, 100.0, 0.0, "position of mid-stroke; motion starts there"},
@@ -18,6 +18,7 @@ constexpr std::array table{
     ParameterEntry{"axis.encoder_counts_per_rev", [](P& p) -> double& { return p.axis.encoder_counts_per_rev; }, 4.0, 1e9, 65536.0, "quadrature counts a motor revolution"},
     ParameterEntry{"axis.end_stop_stiffness_N_per_m", [](P& p) -> double& { return p.axis.end_stop_stiffness_N_per_m; }, 1e3, 1e9, 2e7, "end stop spring"},
     ParameterEntry{"axis.end_stop_damping_Ns_per_m", [](P& p) -> double& { return p.axis.end_stop_damping_Ns_per_m; }, 0.0, 1e7, 2e4, "end stop damper"},
+    ParameterEntry{"axis.friction_laws_on_guide", [](P& p) -> double& { return p.axis.friction_laws_on_guide; }, 0.0, 1.0, 0.0, "1: what changes the ball screw's friction (drift, dwell, warm-up, place) changes the guide's, as on a direct drive"},
     ParameterEntry{"motor.inertia_kgm2", [](P& p) -> double& { return p.motor.inertia_kgm2; }, 1e-9, 100.0, {}, "J_M, rotor inertia"},
     ParameterEntry{"motor.damping_pos_Nms", [](P& p) -> double& { return p.motor.damping_Nms.pos; }, 0.0, 10.0, {}, "B_M, motor damping, positive direction"},
     ParameterEntry{"motor.damping_neg_Nms", [](P& p) -> double& { return p.motor.damping_Nms.neg; }, 0.0, 10.0, {}, "B_M, motor damping, negative direction"},
@@ -59,12 +60,12 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const ParameterEntry> parameter_table() noexcept {
-  return table;
+  return keys;
 }
 
 const ParameterEntry* find_parameter(std::string_view key) noexcept {
-  const auto found = std::ranges::find(table, key, &ParameterEntry::key);
-  return found == table.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(keys, key, &ParameterEntry::key);
+  return found == keys.end() ? nullptr : &*found;
 }
 
 AxisParameters source_axis() noexcept {

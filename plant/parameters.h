@@ -47,6 +47,7 @@ struct TransmissionParameters {
   double encoder_counts_per_rev = 65536.0;
   double end_stop_stiffness_N_per_m = 2.0e7;
   double end_stop_damping_Ns_per_m = 2.0e4;
+  double friction_laws_on_guide = 0.0;  ///< 1: laws that change the ball screw's friction change the guide's
   bool operator==(const TransmissionParameters&) const = default;
 };
 
@@ -61,6 +62,10 @@ struct AxisParameters {
   double power_meter_window_s = 0.1;   ///< the source's meter: 10 readings a second
   double power_meter_readings = 1.0;   ///< that a window spans: windows overlap where it is more than one
   std::vector<EffectSetting> effects;  ///< physics beyond Eq. 1 that is switched on (plant/effects/registry.h)
+
+  [[nodiscard]] bool laws_on_guide() const noexcept { return axis.friction_laws_on_guide > 0.5; }
+  /// The contact that laws of friction change.
+  [[nodiscard]] const LugreParameters& contact_of_laws() const noexcept { return laws_on_guide() ? guide : ball_screw; }
   bool operator==(const AxisParameters&) const = default;
 };
 

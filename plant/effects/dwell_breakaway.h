@@ -10,13 +10,17 @@
 #include <cmath>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/law_contact.h"
 
 namespace feedtwin::plant::effects {
 
 class DwellBreakaway final : public Effect {
  public:
-  DwellBreakaway(const EffectContext& /*context*/, const EffectSetting& setting)
-      : rise_(setting.values[0]), time_constant_s_(setting.values[1]), distance_m_(setting.values[2]) {}
+  DwellBreakaway(const EffectContext& context, const EffectSetting& setting)
+      : contact_(context.axis),
+        rise_(setting.values[0]),
+        time_constant_s_(setting.values[1]),
+        distance_m_(setting.values[2]) {}
 
   void reset(double /*position_m*/) noexcept override {
     age_s_ = 0.0;
@@ -24,7 +28,7 @@ class DwellBreakaway final : public Effect {
   }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
-    scale.screw_sliding *= factor_;
+    contact_.sliding(scale) *= factor_;
   }
 
   void advance(const EffectMotion& m) noexcept override {
@@ -35,6 +39,7 @@ class DwellBreakaway final : public Effect {
   }
 
  private:
+  LawContact contact_;
   double rise_, time_constant_s_, distance_m_;
   double age_s_ = 0.0, factor_ = 1.0;
 };

@@ -25,7 +25,7 @@ struct TickStart {
   double span_s;  ///< over what a torque is averaged: the tick, or next to nothing for the torque at its start
   const AxisState<double>& state;
   double setpoint_m_per_s;  ///< velocity that the drive is told to reach; the axis's own where it is told none
-  double screw_friction_J;  ///< work on the ball screw's friction since the axis was placed
+  double law_friction_J;    ///< work on the friction of the contact that laws change, since the axis was placed
 };
 
 /// A sub-step as the effect's side of the transmission sees it (screw or table; the same without compliance).

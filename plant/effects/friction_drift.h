@@ -9,23 +9,25 @@
 #include <array>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/law_contact.h"
 #include "plant/effects/saturating_change.h"
 
 namespace feedtwin::plant::effects {
 
 class FrictionDrift final : public Effect {
  public:
-  FrictionDrift(const EffectContext& /*context*/, const EffectSetting& setting)
-      : change_(setting.values[0], setting.values[1], setting.values[2]) {}
+  FrictionDrift(const EffectContext& context, const EffectSetting& setting)
+      : contact_(context.axis), change_(setting.values[0], setting.values[1], setting.values[2]) {}
 
   void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.time_s); }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
-    scale.screw_sliding *= factor_;
-    scale.screw_viscous *= factor_;
+    contact_.sliding(scale) *= factor_;
+    contact_.viscous(scale) *= factor_;
   }
 
  private:
+  LawContact contact_;
   SaturatingChange change_;
   double factor_ = 1.0;
 };

@@ -11,20 +11,22 @@
 #include <array>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/law_contact.h"
 
 namespace feedtwin::plant::effects {
 
 class PositionFriction final : public Effect {
  public:
   PositionFriction(const EffectContext& context, const EffectSetting& setting)
-      : slope_(setting.values[0]),
+      : contact_(context.axis),
+        slope_(setting.values[0]),
         viscous_slope_Ns_per_m_{setting.values[1], setting.values[2]},
-        viscous_Ns_per_m_(context.axis.ball_screw.viscous_Ns_per_m),
+        viscous_Ns_per_m_(context.axis.contact_of_laws().viscous_Ns_per_m),
         per_m_(2.0 / context.axis.axis.stroke_m),
         centre_m_(context.axis.axis.stroke_centre_m) {}
 
   void scale(const EffectMotion& m, FrictionScale<double>& scale) const noexcept override {
-    scale.screw_sliding *= std::max(least, 1.0 + slope_ * half_strokes(m));
+    contact_.sliding(scale) *= std::max(least, 1.0 + slope_ * half_strokes(m));
   }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
@@ -43,6 +45,7 @@ class PositionFriction final : public Effect {
     return per_m_ * (m.position_m + 0.5 * m.velocity_m_per_s * m.h_s - centre_m_);
   }
 
+  LawContact contact_;
   double slope_;
   Directional viscous_slope_Ns_per_m_, viscous_Ns_per_m_;
   double per_m_, centre_m_;

@@ -14,22 +14,24 @@
 #include <numbers>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/law_contact.h"
 
 namespace feedtwin::plant::effects {
 
 class PositionFrictionWave final : public Effect {
  public:
   PositionFrictionWave(const EffectContext& context, const EffectSetting& setting)
-      : amplitude_(setting.values[0]),
+      : contact_(context.axis),
+        amplitude_(setting.values[0]),
         rad_per_m_(2.0 * std::numbers::pi / setting.values[1]),
         phase_rad_(setting.values[2]),
         viscous_amplitude_Ns_per_m_(setting.values[3]),
         viscous_phase_rad_(setting.values[4]),
-        viscous_Ns_per_m_(context.axis.ball_screw.viscous_Ns_per_m),
+        viscous_Ns_per_m_(context.axis.contact_of_laws().viscous_Ns_per_m),
         centre_m_(context.axis.axis.stroke_centre_m) {}
 
   void scale(const EffectMotion& m, FrictionScale<double>& scale) const noexcept override {
-    scale.screw_sliding *= std::max(least, 1.0 + amplitude_ * std::sin(angle_rad(m) + phase_rad_));
+    contact_.sliding(scale) *= std::max(least, 1.0 + amplitude_ * std::sin(angle_rad(m) + phase_rad_));
   }
 
   [[nodiscard]] EffectLoad load(const EffectMotion& m) const noexcept override {
@@ -48,6 +50,7 @@ class PositionFrictionWave final : public Effect {
     return rad_per_m_ * (m.position_m + 0.5 * m.velocity_m_per_s * m.h_s - centre_m_);
   }
 
+  LawContact contact_;
   double amplitude_, rad_per_m_, phase_rad_, viscous_amplitude_Ns_per_m_, viscous_phase_rad_;
   Directional viscous_Ns_per_m_;
   double centre_m_;

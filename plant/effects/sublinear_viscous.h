@@ -16,7 +16,7 @@ namespace feedtwin::plant::effects {
 class SublinearViscous final : public Effect {
  public:
   SublinearViscous(const EffectContext& context, const EffectSetting& setting)
-      : viscous_Ns_per_m_(context.axis.ball_screw.viscous_Ns_per_m),
+      : viscous_Ns_per_m_(context.axis.contact_of_laws().viscous_Ns_per_m),
         power_(setting.values[0] - 1.0),
         reference_(std::pow(setting.values[1], -power_)) {}
 

@@ -10,39 +10,42 @@
 #include <array>
 
 #include "plant/effects/entry.h"
+#include "plant/effects/law_contact.h"
 #include "plant/effects/saturating_change.h"
 
 namespace feedtwin::plant::effects {
 
 class ThermalFriction final : public Effect {
  public:
-  ThermalFriction(const EffectContext& /*context*/, const EffectSetting& setting)
-      : change_(-setting.values[0], setting.values[1], -setting.values[2]) {}
+  ThermalFriction(const EffectContext& context, const EffectSetting& setting)
+      : contact_(context.axis), change_(-setting.values[0], setting.values[1], -setting.values[2]) {}
 
-  void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.screw_friction_J); }
+  void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.law_friction_J); }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
-    scale.screw_viscous *= factor_;
+    contact_.viscous(scale) *= factor_;
   }
 
  private:
+  LawContact contact_;
   SaturatingChange change_;
   double factor_ = 1.0;
 };
 
 class ThermalFrictionOfAll final : public Effect {
  public:
-  ThermalFrictionOfAll(const EffectContext& /*context*/, const EffectSetting& setting)
-      : change_(-setting.values[0], setting.values[1], -setting.values[2]) {}
+  ThermalFrictionOfAll(const EffectContext& context, const EffectSetting& setting)
+      : contact_(context.axis), change_(-setting.values[0], setting.values[1], -setting.values[2]) {}
 
-  void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.screw_friction_J); }
+  void tick(const TickStart& start) noexcept override { factor_ = change_.factor(start.law_friction_J); }
 
   void scale(const EffectMotion& /*motion*/, FrictionScale<double>& scale) const noexcept override {
-    scale.screw_sliding *= factor_;
-    scale.screw_viscous *= factor_;
+    contact_.sliding(scale) *= factor_;
+    contact_.viscous(scale) *= factor_;
   }
 
  private:
+  LawContact contact_;
   SaturatingChange change_;
   double factor_ = 1.0;
 };

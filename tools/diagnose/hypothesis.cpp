@@ -56,8 +56,9 @@ bool runs_may_tell(const Active& active) {
   return true;
 }
 
-std::string_view component_of(const Active& active) {
+std::string_view component_of(const Active& active, const plant::AxisParameters& axis) {
   const Hypothesis& h = *active.hypothesis;
+  if (h.law_of_contact && axis.laws_on_guide()) return "guide";
   return h.component_for != nullptr ? h.component_for(active.q) : h.component;
 }
 
@@ -128,7 +129,8 @@ void add(Contribution& sum, const Contribution& more) {
         &Contribution::screw_N, &Contribution::guide_N, &Contribution::torque_sensor_N, &Contribution::force_sensor_N,
         &Contribution::slip_m, &Contribution::power_W})
     if ((more.*part).size() > 0) add(sum.*part, more.*part);
-  for (const auto factors : {&Contribution::screw_sliding, &Contribution::screw_viscous})
+  for (const auto factors : {&Contribution::screw_sliding, &Contribution::screw_viscous, &Contribution::guide_sliding,
+                             &Contribution::guide_viscous})
     if ((more.*factors).size() > 0) scale(sum.*factors, more.*factors);
   sum.table_mass_kg += more.table_mass_kg;
 }

@@ -18,8 +18,7 @@ namespace feedtwin::tools::diagnosis {
 /// What the nominal model says along a run: forces that resist motion, about each sample.
 struct Baseline {
   Vector motor_N, screw_N, guide_N;
-  Vector screw_viscous_N;  ///< the viscous part of screw_N
-  Vector power_W;          ///< drive input
+  Vector power_W;  ///< drive input
 };
 
 struct Contribution;
@@ -38,6 +37,12 @@ class View {
   [[nodiscard]] const plant::LugreParameters& ball_screw() const {
     seen_.ball_screw = true;
     return axis_.ball_screw;
+  }
+  [[nodiscard]] bool laws_on_guide() const { return axis_.laws_on_guide(); }
+  /// The contact that laws of friction change.
+  [[nodiscard]] const plant::LugreParameters& contact_of_laws() const {
+    (laws_on_guide() ? seen_.axis : seen_.ball_screw) = true;
+    return axis_.contact_of_laws();
   }
   /// All numbers, for laws that need more of them.
   [[nodiscard]] const plant::AxisParameters& axis() const {
@@ -79,6 +84,7 @@ struct Contribution {
   Vector power_W;                          ///< drive input beyond the model
   double table_mass_kg = 0.0;              ///< more mass on the table
   Vector screw_sliding, screw_viscous;     ///< factors on F_C and F_S, on mu, along the run
+  Vector guide_sliding, guide_viscous;
 };
 
 /// Runs that a line has a phase of its own in, or a state that it begins with; any further one shares the last one's.
@@ -124,7 +130,8 @@ struct Hypothesis {
   std::vector<NamedValue> (*named)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
   /// Is the fitted value physically possible? nullptr: always.
   bool (*admissible)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
-  std::string_view sentence;         ///< what it is, in an engineer's words; {name} stands for a value with its interval
+  std::string_view sentence;  ///< what it is, in an engineer's words; {name} stands for a value with its interval, {contact}
+                              ///< for screw or guide
   bool number_of_the_model = false;  ///< payload, gravity: a wrong number rather than missing physics
   bool absorbed = false;             ///< the nominal numbers can take most of it: only what they may not be tells it
   /// Least strength to be named: what it leaves over, rms, by the rms of what is left over with it.
@@ -150,6 +157,7 @@ struct Hypothesis {
   std::optional<double> least_missed_nats_far_off = std::nullopt;
   /// And at most so many, where its size is none that false ones have; nullptr: of any size as many.
   double (*most_missed_nats_asked)(std::span<const double> q) = nullptr;
+  bool law_of_contact = false;   ///< changes the friction of the contact that laws change: screw, or guide of a direct drive
   bool law_of_speed = false;     ///< of speed alone, alike both ways
   bool follows_any_law = false;  ///< a smooth change of friction with speed or time, as any other law's mistakes are too
   /// So many deviations of its own, over stretches of the runs, must its amplitudes be from nothing, missed as it may be:
@@ -228,7 +236,7 @@ struct Active {
 /// Is the fitted value physically possible?
 [[nodiscard]] bool possible(const Active& active, const plant::AxisParameters& axis);
 /// Where it acts.
-[[nodiscard]] std::string_view component_of(const Active& active);
+[[nodiscard]] std::string_view component_of(const Active& active, const plant::AxisParameters& axis);
 /// Where it is read off, with the numbers that it has.
 [[nodiscard]] std::string_view channel_of(const Active& active);
 /// "cogging (amplitude_Nm 0.012, cycles_per_rev 12)"

@@ -14,7 +14,7 @@ namespace {
 
 /// Factors on friction along a run, by sample; empty where the effects leave friction alone.
 struct Factors {
-  Vector sliding, viscous;
+  Vector screw_sliding, screw_viscous, guide_sliding, guide_viscous;
   std::vector<Said> said;  ///< by effect, of a model that others stand beside
 };
 
@@ -39,7 +39,8 @@ Factors factors_of(const InverseModel::Asked& model, const Track& track, const I
     add(sum, own.adds);
     if (like == nullptr) said[e] = std::move(own);
   }
-  return {sum.screw_sliding.cwiseMax(least), sum.screw_viscous.cwiseMax(least), std::move(said)};
+  return {sum.screw_sliding.cwiseMax(least), sum.screw_viscous.cwiseMax(least), sum.guide_sliding.cwiseMax(least),
+          sum.guide_viscous.cwiseMax(least), std::move(said)};
 }
 
 /// What laws of friction look at: the contacts, the table's mass and how the axis is built.
@@ -107,7 +108,9 @@ std::vector<std::vector<ContactForces>> InverseModel::contacts(const std::vector
       const auto& scale = (*factors[m])[run];
       motions.push_back({&laws[m], static_cast<std::size_t>(track.size), path_substeps, track.sample_s / path_substeps,
                          track.path_m_per_s.data(), (apart ? track.table_path_m_per_s : track.path_m_per_s).data(),
-                         data_or_none(scale.sliding), data_or_none(scale.viscous), out.screw_N.data(), out.guide_N.data()});
+                         data_or_none(scale.screw_sliding), data_or_none(scale.screw_viscous),
+                         data_or_none(scale.guide_sliding), data_or_none(scale.guide_viscous), out.screw_N.data(),
+                         out.guide_N.data()});
     }
   }
   lanes::follow_friction(motions);

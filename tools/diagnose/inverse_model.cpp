@@ -84,13 +84,12 @@ Baseline InverseModel::baseline(const plant::AxisParameters& axis, const Contact
   const Track& track = tracks_[run];
   const auto model = plant::make_axis_model(axis);
   Baseline base;
-  Vector motor = motor_coulomb_N(track, axis), viscous(track.size), power(track.size);
+  Vector motor = motor_coulomb_N(track, axis), power(track.size);
   const auto& electrical = axis.motor;
   for (Index k = 0; k < track.size; ++k) {
     const double v = track.velocity_m_per_s[k];
     const bool forward = v > 0.0;
     motor[k] += (forward ? model.damping_pos_Ns_per_m : model.damping_neg_Ns_per_m) * v;
-    viscous[k] = (forward ? axis.ball_screw.viscous_Ns_per_m.pos : axis.ball_screw.viscous_Ns_per_m.neg) * v;
     const auto& linear = electrical.electrical_linear_Ws_per_m;
     const auto& quadratic = electrical.electrical_quadratic_Ws2_per_m2;
     const double now = track.metered_m_per_s[k];
@@ -99,7 +98,6 @@ Baseline InverseModel::baseline(const plant::AxisParameters& axis, const Contact
                (on ? quadratic.pos : quadratic.neg) * now * now + track.held_N[k] * now;
   }
   base.motor_N = about_sample(motor);
-  base.screw_viscous_N = about_sample(viscous);
   base.screw_N = about_sample(contacts.screw_N);
   base.guide_N = about_sample(contacts.guide_N);
   base.power_W = std::move(power);

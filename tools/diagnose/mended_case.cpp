@@ -3,12 +3,28 @@
 #include <string>
 
 #include "tools/diagnose/command_jump.h"
+#include "tools/diagnose/hypotheses/shapes.h"
 
 namespace feedtwin::tools::diagnosis {
+namespace {
+
+/// A direct drive has hardly a friction but its guide's; what changes friction changes that. A file that says so already, or
+/// holds effects that its own laws stand for, stays as it is.
+bool hardly_any_friction_but_the_guides(const plant::AxisParameters& axis) {
+  constexpr double least_ratio = 4.0;
+  return !axis.laws_on_guide() && axis.effects.empty() &&
+         mean(axis.guide.coulomb_N) > least_ratio * mean(axis.ball_screw.coulomb_N);
+}
+
+}  // namespace
 
 Case mended(Case data, std::vector<SetupFault>& faults, const std::function<void(std::string_view)>& progress) {
   faults = mend_setup(data);
   for (const auto& fault : faults) progress(fault.sentence);
+  if (hardly_any_friction_but_the_guides(data.axis)) {
+    data.axis.axis.friction_laws_on_guide = 1.0;
+    progress("the axis file gives the guide nearly all friction: drift, dwell, warm-up and place change that");
+  }
   progress("following friction along " + std::to_string(data.fit.size()) + " runs");
   return data;
 }

@@ -10,6 +10,7 @@
 
 namespace feedtwin::tools::diagnosis {
 
+/// And with laws of friction on the contact that has it.
 /// @param faults takes what was mended
 [[nodiscard]] Case mended(Case data, std::vector<SetupFault>& faults, const std::function<void(std::string_view)>& progress);
 

@@ -136,7 +136,7 @@ NamedEffect held_by_numbers(const Hypothesis& name, double gain, const Fit& fit)
 NamedEffect named_effect(const Found& one, const Fit& fit, const Eigen::MatrixXd& covariance, const InverseModel& model) {
   NamedEffect effect;
   effect.hypothesis = one.effect.hypothesis;
-  effect.component = component_of(one.effect);
+  effect.component = component_of(one.effect, fit.model.axis);
   effect.channel = channel_of(one.effect);
   for (std::size_t e = 0; e < fit.model.effects.size(); ++e)
     if (fit.model.effects[e].hypothesis == one.effect.hypothesis) effect.parameters = estimates(fit, covariance, e);

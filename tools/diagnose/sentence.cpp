@@ -32,6 +32,12 @@ std::string which_way(const NamedEffect& effect) {
                      only > 0.0 ? "positive" : "negative");
 }
 
+/// Every {slot} of the text.
+void fill_in(std::string& text, std::string_view slot, const std::string& words) {
+  const std::string held = fmt::format("{{{}}}", slot);
+  for (auto at = text.find(held); at != std::string::npos; at = text.find(held)) text.replace(at, held.size(), words);
+}
+
 std::string list_of(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -45,11 +51,8 @@ double value_of(const NamedEffect& effect, std::string_view name) {
 
 std::string sentence_of(const NamedEffect& effect) {
   std::string text(effect.hypothesis->sentence);
-  for (const auto& [name, estimate] : effect.parameters) {
-    const std::string slot = "{" + name + "}";
-    for (auto at = text.find(slot); at != std::string::npos; at = text.find(slot))
-      text.replace(at, slot.size(), told(estimate));
-  }
+  fill_in(text, "contact", effect.component == "guide" ? "guide" : "screw");
+  for (const auto& [name, estimate] : effect.parameters) fill_in(text, name, told(estimate));
   for (auto at = text.find('{'); at != std::string::npos; at = text.find('{'))
     text.replace(at, text.find('}', at) + 1 - at, "(not told by these data)");
   text = fmt::format("{}: {}. {}; chance of a false alarm over all hypotheses {:.1g}.", effect.component, text,

@@ -199,9 +199,9 @@ TEST(LoadDependentFriction, RisesWithTheWeightAsWellAsWithTheMass) {
 
 TEST(LocalFriction, IsToldWhereItIs) {
   const auto& spot = hypothesis("local_friction");
-  EXPECT_EQ(component_of({&spot, {15.0, 0.004, 0.002, 0.0}}), "guide");
-  EXPECT_EQ(component_of({&spot, {15.0, 0.004, 0.002, 1.0}}), "ball_screw");
-  EXPECT_EQ(component_of({&hypothesis("cogging"), {0.01, 0.0, 8.0}}), "motor");
+  EXPECT_EQ(component_of({&spot, {15.0, 0.004, 0.002, 0.0}}, plant::source_axis()), "guide");
+  EXPECT_EQ(component_of({&spot, {15.0, 0.004, 0.002, 1.0}}, plant::source_axis()), "ball_screw");
+  EXPECT_EQ(component_of({&hypothesis("cogging"), {0.01, 0.0, 8.0}}, plant::source_axis()), "motor");
 }
 
 // A force sensor at the table feels a spot on the guide and none on the screw: both are asked for where there is one.
@@ -225,7 +225,7 @@ TEST(LocalFriction, IsFoundOnTheScrewWhereAForceSensorTells) {
 TEST(LawsOfFriction, AddForceWhereTheySaySoAndElsewhereOnlyScale) {
   const Track track = make_track(runs_of(plant::source_axis(), true, true).front(), plant::source_axis());
   Baseline base;
-  base.screw_N = base.guide_N = base.motor_N = base.screw_viscous_N = Vector::Ones(track.size);
+  base.screw_N = base.guide_N = base.motor_N = Vector::Ones(track.size);
   int only_scale = 0, force_too = 0;
   for (const auto& h : hypotheses()) {
     if (!h.friction) continue;

@@ -74,7 +74,7 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItSetsInFasterThanAReversal) {
   one.effect.q = {0.01, 2.5e-3, 0.0, 1.0};
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4);
   one.effect.q[1] = 4.5e-3;
-  EXPECT_DOUBLE_EQ(nats_to_stay(one), 1000.0);
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 1400.0);
 }
 
 TEST(NatsToStay, FrictionByTheLoadNeedsMoreThanADelayLeavesOver) {

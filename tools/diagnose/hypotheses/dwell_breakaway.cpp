@@ -33,7 +33,7 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
     age_s = age_s * left + track.sample_s * (worn > 1e-3 ? (1.0 - left) / worn : 1.0 - worn * (0.5 - worn / 6.0));
     factor[k] = 1.0 + rise_after(age_s, q);
   }
-  scale(sum.screw_sliding, factor);
+  scale(OfLaws(view, sum).sliding, factor);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -68,8 +68,9 @@ Hypothesis dwell_breakaway() {
           .apply = apply,
           .named = named,
           .admissible = possible,
-          .sentence = "breakaway rises with the rest before it, by up to {relative_rise} of itself",
+          .sentence = "the {contact}'s breakaway rises with the rest before it, by up to {relative_rise} of itself",
           .least_gain = 100.0,  // friction about reversals is modelled worst: 33 to 93 where there was none, true ones 364
+          .law_of_contact = true,
           .about_reversals = true,
           .finding = finding,
           .confused_with = {"presliding_memory"},

@@ -17,8 +17,9 @@ void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector t = Vector::LinSpaced(view.track.size, 0.0, static_cast<double>(view.track.size - 1) * view.track.sample_s);
   const double before = q[state_of_run(first_state, view.track.run)];
   const Vector factor = (1.0 + q[0] + (before - q[0]) * (-t.array() / q[1]).exp()).matrix();
-  scale(sum.screw_sliding, factor);
-  scale(sum.screw_viscous, factor);
+  const OfLaws contact(view, sum);
+  scale(contact.sliding, factor);
+  scale(contact.viscous, factor);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -48,10 +49,11 @@ Hypothesis friction_drift() {
           .apply = apply,
           .named = named,
           .admissible = possible,
-          .sentence = "friction drifts with time, by {relative_change} of itself within {time_constant_s} s",
+          .sentence = "the {contact}'s friction drifts with time, by {relative_change} of itself within {time_constant_s} s",
 
           // beside a real contact's friction false ones were missed by 3 and 50 nats, right ones by 709 and more
           .least_missed_nats = 150.0,
+          .law_of_contact = true,
           .follows_any_law = true,
           .least_deviations = deviations_of_numbers,
           .confused_with = {"thermal_friction", "thermal_friction_of_all"},

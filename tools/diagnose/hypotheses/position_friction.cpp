@@ -16,9 +16,10 @@ constexpr double most_slope = 1.5;
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const auto& axis = view.transmission();
   const Vector share = (view.track.position_m.array() - axis.stroke_centre_m).matrix() / (0.5 * axis.stroke_m);
-  scale(sum.screw_sliding, (1.0 + q[0] * share.array()).max(least_left).matrix());
+  const OfLaws contact(view, sum);
+  scale(contact.sliding, (1.0 + q[0] * share.array()).max(least_left).matrix());
   const auto v = view.track.centred_m_per_s.array();
-  add(sum.screw_N, (share.array() * (q[1] * v.max(0.0) + q[2] * v.min(0.0))).matrix());
+  add(contact.resists_N, (share.array() * (q[1] * v.max(0.0) + q[2] * v.min(0.0))).matrix());
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -29,7 +30,7 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
   constexpr double least_share_of_viscous = 0.02;
-  const auto& mu = axis.ball_screw.viscous_Ns_per_m;
+  const auto& mu = axis.contact_of_laws().viscous_Ns_per_m;
   return std::abs(q[0]) > 0.005 || std::abs(q[1]) > least_share_of_viscous * mu.pos ||
          std::abs(q[2]) > least_share_of_viscous * mu.neg;
 }
@@ -50,9 +51,10 @@ Hypothesis position_friction() {
       .named = named,
       .admissible = possible,
       .sentence =
-          "the screw's friction grows along the stroke, from the middle to the end its sliding part by "
+          "the {contact}'s friction grows along the stroke, from the middle to the end its sliding part by "
           "{relative_slope_per_half_stroke} of itself, its viscous part by {viscous_slope_forth_Ns_per_m} N s/m forth and "
           "{viscous_slope_back_Ns_per_m} N s/m back",
+      .law_of_contact = true,
       .confused_with = {"cable_spring", "local_friction"},
       .friction = true,
       .forces_too = true};

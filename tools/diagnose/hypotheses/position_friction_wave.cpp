@@ -13,10 +13,10 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   const Track& track = view.track;
   const Vector from_middle = (track.position_m.array() - view.transmission().stroke_centre_m).matrix();
-  if (q[0] != 0.0 || q[1] != 0.0)
-    scale(sum.screw_sliding, (1.0 + wave(from_middle, q[4], 1.0, q[0], q[1]).array()).matrix());
+  const OfLaws contact(view, sum);
+  if (q[0] != 0.0 || q[1] != 0.0) scale(contact.sliding, (1.0 + wave(from_middle, q[4], 1.0, q[0], q[1]).array()).matrix());
   if (q[2] != 0.0 || q[3] != 0.0)
-    add(sum.screw_N, wave(from_middle, q[4], 1.0, q[2], q[3]).cwiseProduct(track.centred_m_per_s));
+    add(contact.resists_N, wave(from_middle, q[4], 1.0, q[2], q[3]).cwiseProduct(track.centred_m_per_s));
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -32,7 +32,8 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
 bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
   constexpr double least_leads = 2.5, least_amplitude = 0.04, most_amplitude = 1.5, least_of_viscous = 0.5;
   constexpr double most_of_stroke = 0.75;
-  const double sliding = std::hypot(q[0], q[1]), viscous = std::hypot(q[2], q[3]) / mean(axis.ball_screw.viscous_Ns_per_m);
+  const double sliding = std::hypot(q[0], q[1]),
+               viscous = std::hypot(q[2], q[3]) / mean(axis.contact_of_laws().viscous_Ns_per_m);
   return sliding > least_amplitude && sliding < most_amplitude && sliding > least_of_viscous * viscous &&
          q[4] > least_leads * axis.axis.lead_m && q[4] < most_of_stroke * axis.axis.stroke_m;
 }
@@ -67,11 +68,12 @@ Hypothesis position_friction_wave() {
       .named = named,
       .admissible = possible,
       .sentence =
-          "the screw's friction goes up and down along the stroke, by {relative_amplitude} of its sliding part over "
+          "the {contact}'s friction goes up and down along the stroke, by {relative_amplitude} of its sliding part over "
           "{period_m} m",
 
       // a real record's laps had 0.31 to 0.58 of it beside other names, that the closed loop did not miss; a true one 2.3
       .least_strength = 0.6,
+      .law_of_contact = true,
       .confused_with = {"local_friction", "cable_spring"},
       .shapes_for = periods_of,
       .friction = true,

@@ -25,6 +25,15 @@ inline constexpr double deviations_of_lags = 14.0;
   return 0.5 * (both.pos + both.neg);
 }
 
+/// What laws of friction change: factors and resistance of the ball screw, or of the guide where the axis says so.
+struct OfLaws {
+  OfLaws(const View& view, Contribution& sum)
+      : sliding(view.laws_on_guide() ? sum.guide_sliding : sum.screw_sliding),
+        viscous(view.laws_on_guide() ? sum.guide_viscous : sum.screw_viscous),
+        resists_N(view.laws_on_guide() ? sum.guide_N : sum.screw_N) {}
+  Vector &sliding, &viscous, &resists_N;
+};
+
 /// sine sin(2 pi n x / period) + cosine cos(...)
 [[nodiscard]] Vector wave(const Vector& x, double period, double order, double sine, double cosine);
 /// What screw and table press on each other with, N: as the force sensor shows it, otherwise as the model has it.

@@ -11,14 +11,14 @@ namespace {
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
   constexpr double reference_m_per_s = 0.1, small_m_per_s = 1e-4;
   const Track& track = view.track;
-  const auto& mu = view.ball_screw().viscous_Ns_per_m;
+  const auto& mu = view.contact_of_laws().viscous_Ns_per_m;
   Vector force(track.size);
   for (Index k = 0; k < track.size; ++k) {
     const double v = track.centred_m_per_s[k];
     const double share = std::hypot(v, small_m_per_s) / reference_m_per_s;
     force[k] = (v > 0.0 ? mu.pos : mu.neg) * v * (std::pow(share, -q[0]) - 1.0);
   }
-  add(sum.screw_N, force);
+  add(OfLaws(view, sum).resists_N, force);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -41,7 +41,8 @@ Hypothesis sublinear_viscous() {
           .apply = apply,
           .named = named,
           .admissible = possible,
-          .sentence = "the screw's viscous friction grows as the speed to the power {exponent}",
+          .sentence = "the {contact}'s viscous friction grows as the speed to the power {exponent}",
+          .law_of_contact = true,
           .law_of_speed = true,
           // of twelve names in seventeen sets the true ones had 11 and more, a false one beside a delay 1.4
           .least_deviations = 5.0,

@@ -15,7 +15,7 @@ constexpr std::size_t first_state = 2;
 /// @param of_all sliding friction falls too
 Vector warmed(const View& view, std::span<const double> q, bool of_all) {
   const Track& track = view.track;
-  const auto& screw = view.ball_screw();
+  const auto& contact = view.contact_of_laws();
   Vector factor(track.size);
   const double before = q[state_of_run(first_state, track.run)];
   double work_J = 0.0;
@@ -23,22 +23,23 @@ Vector warmed(const View& view, std::span<const double> q, bool of_all) {
     const double v = track.velocity_m_per_s[k], speed = std::abs(v);
     const auto side = v > 0.0 ? &plant::Directional::pos : &plant::Directional::neg;
     factor[k] = 1.0 - q[0] - (before - q[0]) * plant::exp_of_minus(work_J / q[1]);
-    const double sliding = screw.coulomb_N.*side + (screw.static_N.*side - screw.coulomb_N.*side) *
-                                                       plant::exp_of_minus(speed / screw.stribeck_m_per_s.*side);
+    const double sliding = contact.coulomb_N.*side + (contact.static_N.*side - contact.coulomb_N.*side) *
+                                                         plant::exp_of_minus(speed / contact.stribeck_m_per_s.*side);
     work_J +=
-        ((of_all ? factor[k] : 1.0) * sliding + factor[k] * screw.viscous_Ns_per_m.*side * speed) * speed * track.sample_s;
+        ((of_all ? factor[k] : 1.0) * sliding + factor[k] * contact.viscous_Ns_per_m.*side * speed) * speed * track.sample_s;
   }
   return factor;
 }
 
 void apply(const View& view, std::span<const double> q, Contribution& sum) {
-  scale(sum.screw_viscous, warmed(view, q, false));
+  scale(OfLaws(view, sum).viscous, warmed(view, q, false));
 }
 
 void apply_to_all(const View& view, std::span<const double> q, Contribution& sum) {
   const Vector factor = warmed(view, q, true);
-  scale(sum.screw_sliding, factor);
-  scale(sum.screw_viscous, factor);
+  const OfLaws contact(view, sum);
+  scale(contact.sliding, factor);
+  scale(contact.viscous, factor);
 }
 
 std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
@@ -56,28 +57,30 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 }  // namespace
 
 Hypothesis thermal_friction() {
-  return {.id = "thermal_friction",
-          .component = "ball_screw",
-          .channel = "torque_cmd_Nm",
-          .where = Where::time,
-          .parameters = with_states(
-              {{"viscous_reduction", Kind::amplitude, 1e-2, -2.0, 0.95}, {"energy_scale_J", Kind::shape, 1e-2, 0.1, 1e5}},
-              1e-2, -2.0, 0.95),
-          .shapes = {{2.0, 0.0}, {5.0, 0.0}, {12.0, 0.0}, {30.0, 0.0}, {80.0, 0.0}, {250.0, 0.0}},
-          .apply = apply,
-          .named = named,
-          .admissible = possible,
-          .sentence =
-              "the screw warms up: its viscous friction falls by {viscous_reduction} of itself within {energy_scale_J} J of "
-              "work",
+  return {
+      .id = "thermal_friction",
+      .component = "ball_screw",
+      .channel = "torque_cmd_Nm",
+      .where = Where::time,
+      .parameters = with_states(
+          {{"viscous_reduction", Kind::amplitude, 1e-2, -2.0, 0.95}, {"energy_scale_J", Kind::shape, 1e-2, 0.1, 1e5}}, 1e-2,
+          -2.0, 0.95),
+      .shapes = {{2.0, 0.0}, {5.0, 0.0}, {12.0, 0.0}, {30.0, 0.0}, {80.0, 0.0}, {250.0, 0.0}},
+      .apply = apply,
+      .named = named,
+      .admissible = possible,
+      .sentence =
+          "the {contact} warms up: its viscous friction falls by {viscous_reduction} of itself within {energy_scale_J} J of "
+          "work",
 
-          .least_missed_nats = 150.0,  // right ones 478 and more
-          .follows_any_law = true,
-          .least_deviations = deviations_of_numbers,
-          .confused_with = {"friction_drift"},
-          .state = "initial_reduction",
-          .first_state = first_state,
-          .friction = true};
+      .least_missed_nats = 150.0,  // right ones 478 and more
+      .law_of_contact = true,
+      .follows_any_law = true,
+      .least_deviations = deviations_of_numbers,
+      .confused_with = {"friction_drift"},
+      .state = "initial_reduction",
+      .first_state = first_state,
+      .friction = true};
 }
 
 Hypothesis thermal_friction_of_all() {
@@ -87,7 +90,7 @@ Hypothesis thermal_friction_of_all() {
   law.parameters.front().name = "reduction";
   law.apply = apply_to_all;
   law.named = named_of_all;
-  law.sentence = "the screw warms up: its friction falls by {reduction} of itself within {energy_scale_J} J of work";
+  law.sentence = "the {contact} warms up: its friction falls by {reduction} of itself within {energy_scale_J} J of work";
   law.confused_with.emplace_back("thermal_friction");
   return law;
 }

@@ -16,7 +16,8 @@ struct FollowedMotion {
   double substep_s;
   const double *path_m_per_s, *table_path_m_per_s;  ///< of motor and table, by sub-step
   const double *screw_sliding, *screw_viscous;      ///< factors by sample, see FrictionScale; nullptr: 1
-  double *screw_N, *guide_N;                        ///< what comes out: means over each sample
+  const double *guide_sliding, *guide_viscous;
+  double *screw_N, *guide_N;  ///< what comes out: means over each sample
 };
 
 /// @param motions as many as the kernel has lanes; bristles start unloaded

@@ -35,31 +35,37 @@ void run_follow(const FollowedMotion* motions) {
   plant::Contacts<Real> contacts;
   Real h_s{};
   std::size_t samples = 0;
-  bool scaled = false;
+  bool screw_scaled = false, guide_scaled = false;
   for (std::size_t lane = 0; lane < width; ++lane) {
     const auto& motion = motions[lane];
     plant::detail::set_contact(contacts.screw, lane, motion.contacts->both, 0);
     plant::detail::set_contact(contacts.guide, lane, motion.contacts->both, 1);
     h_s[lane] = motion.substep_s;
     samples = motion.samples > samples ? motion.samples : samples;
-    scaled = scaled || motion.screw_sliding != nullptr || motion.screw_viscous != nullptr;
+    screw_scaled = screw_scaled || motion.screw_sliding != nullptr || motion.screw_viscous != nullptr;
+    guide_scaled = guide_scaled || motion.guide_sliding != nullptr || motion.guide_viscous != nullptr;
   }
   const std::size_t substeps = motions[0].substeps;
   const double share = 1.0 / static_cast<double>(substeps);
-  const Real per_h_Hz = 1.0 / h_s, one = Real{} + 1.0;
+  const Real per_h_Hz = 1.0 / h_s;
   Real screw_m{}, guide_m{};
   for (std::size_t k = 0; k < samples; ++k) {
-    Real sliding = one, viscous = one;
-    if (scaled) {
-      sliding = gathered<Real>(motions, &FollowedMotion::screw_sliding, k, k, 1.0);
-      viscous = gathered<Real>(motions, &FollowedMotion::screw_viscous, k, k, 1.0);
+    plant::FrictionScale<Real> scale;
+    if (screw_scaled) {
+      scale.screw_sliding = gathered<Real>(motions, &FollowedMotion::screw_sliding, k, k, 1.0);
+      scale.screw_viscous = gathered<Real>(motions, &FollowedMotion::screw_viscous, k, k, 1.0);
+    }
+    if (guide_scaled) {
+      scale.guide_sliding = gathered<Real>(motions, &FollowedMotion::guide_sliding, k, k, 1.0);
+      scale.guide_viscous = gathered<Real>(motions, &FollowedMotion::guide_viscous, k, k, 1.0);
     }
     Real screw_N{}, guide_N{};
     for (std::size_t i = k * substeps; i < (k + 1) * substeps; ++i) {
       const Real v = gathered<Real>(motions, &FollowedMotion::path_m_per_s, k, i, 0.0);
       const Real table_v = gathered<Real>(motions, &FollowedMotion::table_path_m_per_s, k, i, 0.0);
-      screw_N += follow_contact<Real>(contacts.screw, v, sliding, viscous, h_s, per_h_Hz, screw_m);
-      guide_N += follow_contact<Real>(contacts.guide, table_v, one, one, h_s, per_h_Hz, guide_m);
+      screw_N += follow_contact<Real>(contacts.screw, v, scale.screw_sliding, scale.screw_viscous, h_s, per_h_Hz, screw_m);
+      guide_N +=
+          follow_contact<Real>(contacts.guide, table_v, scale.guide_sliding, scale.guide_viscous, h_s, per_h_Hz, guide_m);
     }
     for (std::size_t lane = 0; lane < width; ++lane) {
       if (k >= motions[lane].samples) continue;

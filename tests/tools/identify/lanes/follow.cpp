@@ -19,16 +19,19 @@ constexpr double substep_s = 2.5e-4;
 
 struct Made {
   plant::Contacts<double> contacts;
-  std::vector<double> path, table_path, sliding, viscous, screw_N, guide_N;
+  std::vector<double> path, table_path, sliding, viscous, guide_sliding, guide_viscous, screw_N, guide_N;
   [[nodiscard]] FollowedMotion view() {
+    const auto factors = [](const std::vector<double>& of) { return of.empty() ? nullptr : of.data(); };
     return {&contacts,
             screw_N.size(),
             substeps,
             substep_s,
             path.data(),
             table_path.data(),
-            sliding.empty() ? nullptr : sliding.data(),
-            viscous.empty() ? nullptr : viscous.data(),
+            factors(sliding),
+            factors(viscous),
+            factors(guide_sliding),
+            factors(guide_viscous),
             screw_N.data(),
             guide_N.data()};
   }
@@ -43,7 +46,7 @@ Made any(std::mt19937_64& random) {
   axis.ball_screw.coulomb_N.pos *= factor(2.0);
   axis.ball_screw.static_N.pos = 1.3 * axis.ball_screw.coulomb_N.pos;
   axis.guide.stiffness_N_per_m *= factor(3.0);
-  Made made{plant::make_axis_model(axis).contacts, {}, {}, {}, {}, {}, {}};
+  Made made{plant::make_axis_model(axis).contacts, {}, {}, {}, {}, {}, {}, {}, {}};
   const std::size_t samples = std::uniform_int_distribution<std::size_t>(1, 400)(random);
   const double rate = 20.0 * factor(10.0), speed = 1e-2 * factor(100.0);
   std::bernoulli_distribution stands(0.1), scaled(0.5);
@@ -52,7 +55,7 @@ Made any(std::mt19937_64& random) {
     made.path.push_back(v);
     made.table_path.push_back(0.9 * v);
   }
-  for (auto* factors : {&made.sliding, &made.viscous})
+  for (auto* factors : {&made.sliding, &made.viscous, &made.guide_sliding, &made.guide_viscous})
     if (scaled(random))
       for (std::size_t k = 0; k < samples; ++k) factors->push_back(factor(2.0));
   made.screw_N.assign(samples, std::nan(""));
@@ -69,10 +72,12 @@ void expect_as_alone(const Made& made) {
     plant::FrictionScale<double> scale;
     if (!made.sliding.empty()) scale.screw_sliding = made.sliding[k];
     if (!made.viscous.empty()) scale.screw_viscous = made.viscous[k];
+    if (!made.guide_sliding.empty()) scale.guide_sliding = made.guide_sliding[k];
+    if (!made.guide_viscous.empty()) scale.guide_viscous = made.guide_viscous[k];
     double screw_N = 0.0, guide_N = 0.0;
     for (std::size_t i = k * substeps; i < (k + 1) * substeps; ++i) {
       const auto screw = made.contacts.step(along(made.path[i]), screw_m, 0.0, scale);
-      const auto guide = made.contacts.step(along(made.table_path[i]), 0.0, guide_m, {});
+      const auto guide = made.contacts.step(along(made.table_path[i]), 0.0, guide_m, scale);
       screw_N += screw.screw_force_N / substeps;
       guide_N += guide.guide_force_N / substeps;
       screw_m = screw.screw_bristle_m;
