@@ -75,6 +75,10 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItSetsInFasterThanAReversal) {
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4);
   one.effect.q[1] = 4.5e-3;
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 1400.0);
+  one.effect.q[2] = -7e-4;
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 5e4) << "what comes after the motion is friction's";
+  one.effect.q[3] = 0.0;
+  EXPECT_DOUBLE_EQ(nats_to_stay(one), 1400.0) << "after the set point is not after the motion";
 }
 
 TEST(NatsToStay, FrictionByTheLoadNeedsMoreThanADelayLeavesOver) {

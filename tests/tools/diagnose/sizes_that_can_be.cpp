@@ -39,6 +39,19 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_TRUE(finding(11.0, 6e-5));
 }
 
+TEST(ReadingsThatWaver, StayNextToStraight) {
+  auto belt = plant::source_axis();
+  belt.axis.lead_m = 0.168;
+  for (const auto id : {"encoder_eccentricity", "cyclic_lead_error"}) {
+    const auto can_be = [&](double amplitude_m, double cycles) {
+      return possible({&hypothesis(id), {0.6 * amplitude_m, 0.8 * amplitude_m, cycles}}, belt);
+    };
+    EXPECT_TRUE(can_be(1e-3, 1.0)) << id;
+    EXPECT_FALSE(can_be(2.1e-2, 1.0)) << id;
+    EXPECT_FALSE(can_be(1e-3, 4.0)) << id << ", as steep";
+  }
+}
+
 TEST(PreslidingMemory, IsToldWhereOnlyASoftenedBristleHidesIt) {
   const auto nominal = plant::source_axis();
   const double file_N_per_m = nominal.ball_screw.stiffness_N_per_m;

@@ -16,6 +16,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"amplitude_m", std::hypot(q[0], q[1])}, {"cycles_per_rev", q[2]}, {"phase_rad", std::atan2(q[1], q[0])}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
+  return wavers_little(std::hypot(q[0], q[1]), q[2], axis.axis);
+}
+
 }  // namespace
 
 Hypothesis cyclic_lead_error() {
@@ -29,6 +33,7 @@ Hypothesis cyclic_lead_error() {
           .shapes = whole_orders(1, 4),
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the lead wavers by {amplitude_m} m, {cycles_per_rev} times a revolution",
 
           .confused_with = {"encoder_eccentricity"},

@@ -26,6 +26,10 @@ std::vector<NamedValue> named(std::span<const double> q, const plant::AxisParame
   return {{"amplitude_m", std::hypot(q[0], q[1])}, {"cycles_per_rev", q[2]}, {"phase_rad", std::atan2(q[1], q[0])}};
 }
 
+bool possible(std::span<const double> q, const plant::AxisParameters& axis) {
+  return wavers_little(std::hypot(q[0], q[1]), q[2], axis.axis);
+}
+
 }  // namespace
 
 Hypothesis encoder_eccentricity() {
@@ -39,6 +43,7 @@ Hypothesis encoder_eccentricity() {
           .shapes = whole_orders(1, 2),
           .apply = apply,
           .named = named,
+          .admissible = possible,
           .sentence = "the encoder runs out of true: it reads {amplitude_m} m too far, {cycles_per_rev} times a revolution",
 
           .confused_with = {"cyclic_lead_error", "rev_ripple"},

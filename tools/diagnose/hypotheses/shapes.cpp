@@ -179,4 +179,9 @@ bool states_differ(const Active& active) {
   return std::max(-low, high) > std::min(active.hypothesis->clear_step, least_share * std::abs(active.q.front()));
 }
 
+bool wavers_little(double amplitude_m, double cycles_per_rev, const plant::TransmissionParameters& transmission) {
+  constexpr double most_slope = 0.1;
+  return amplitude_m * cycles_per_rev * per_lead(transmission) < most_slope;
+}
+
 }  // namespace feedtwin::tools::diagnosis

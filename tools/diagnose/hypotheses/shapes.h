@@ -42,6 +42,10 @@ struct OfLaws {
 [[nodiscard]] Vector delayed(const Vector& values, double samples);
 /// First-order lag of a number of samples.
 [[nodiscard]] Vector lagged(const Vector& values, double samples);
+/// Does a reading that wavers along each revolution stay next to straight? Its slope varies by less than a tenth; of true
+/// ones by up to 0.0087. More is a force of that period that nothing else explains (0.8 was 21 mm of a belt's 168 a turn).
+[[nodiscard]] bool wavers_little(double amplitude_m, double cycles_per_rev,
+                                 const plant::TransmissionParameters& transmission);
 /// Of a delay or a time constant: what it leaves of a step is gone at the next sample (e^-5), and until then a lag takes
 /// as much from the mean torque as a delay.
 [[nodiscard]] bool gone_within_a_sample(std::span<const double> q, double sample_s);
