@@ -43,7 +43,8 @@ AxisParameters adapted(const AxisParameters& parameters) {
 EffectChain::EffectChain(const AxisParameters& axis, const AxisModel<double>& model) {
   for (const auto& setting : axis.effects) (void)entry_of(setting);
   for (const auto& entry : effect_registry()) {  // in its order, which is the signal's
-    const bool at_table = entry.component == EffectComponent::guide || entry.component == EffectComponent::load;
+    const bool at_table = entry.component == EffectComponent::guide || entry.component == EffectComponent::load ||
+                          (entry.of_contact && axis.laws_on_guide());
     for (const auto& setting : axis.effects) {
       if (setting.id != entry.id || entry.make == nullptr) continue;
       links_.push_back({&entry, entry.make({axis, model}, setting), at_table, {}});

@@ -65,6 +65,7 @@ inline constexpr EffectEntry dwell_breakaway{
     .make = make_effect<DwellBreakaway>,
     .hooks = hooks_of<DwellBreakaway>(),
     .even_in_motion = true,
+    .of_contact = true,
 };
 
 }  // namespace feedtwin::plant::effects

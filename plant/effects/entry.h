@@ -57,6 +57,8 @@ struct EffectEntry {
   bool even_in_motion = false;
   /// Of what only scales friction: by a load that changes along a tick, so that it asks for them.
   bool uneven_in_motion = false;
+  /// Acts on the contact that laws of friction change: at the table where that is the guide's.
+  bool of_contact = false;
   /// What is wrong with a setting whose numbers are each in range; empty: nothing. May be null.
   std::string (*problem)(const EffectSetting& setting) = nullptr;
 };

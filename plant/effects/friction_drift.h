@@ -52,6 +52,7 @@ inline constexpr EffectEntry friction_drift{
     .parameters = friction_drift_parameters,
     .make = make_effect<FrictionDrift>,
     .hooks = hooks_of<FrictionDrift>(),
+    .of_contact = true,
 };
 
 }  // namespace feedtwin::plant::effects

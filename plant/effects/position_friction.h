@@ -72,6 +72,7 @@ inline constexpr EffectEntry position_friction{
     .make = make_effect<PositionFriction>,
     .hooks = hooks_of<PositionFriction>(),
     .even_in_motion = true,
+    .of_contact = true,
 };
 
 }  // namespace feedtwin::plant::effects

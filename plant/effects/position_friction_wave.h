@@ -79,6 +79,7 @@ inline constexpr EffectEntry position_friction_wave{
     .make = make_effect<PositionFrictionWave>,
     .hooks = hooks_of<PositionFrictionWave>(),
     .even_in_motion = true,
+    .of_contact = true,
 };
 
 }  // namespace feedtwin::plant::effects

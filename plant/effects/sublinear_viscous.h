@@ -55,6 +55,7 @@ inline constexpr EffectEntry sublinear_viscous{
     .make = make_effect<SublinearViscous>,
     .hooks = hooks_of<SublinearViscous>(),
     .even_in_motion = true,
+    .of_contact = true,
 };
 
 }  // namespace feedtwin::plant::effects

@@ -75,6 +75,7 @@ inline constexpr EffectEntry thermal_friction{
     .parameters = thermal_friction_parameters,
     .make = make_effect<ThermalFriction>,
     .hooks = hooks_of<ThermalFriction>(),
+    .of_contact = true,
 };
 
 inline constexpr EffectEntry thermal_friction_of_all{
@@ -88,6 +89,7 @@ inline constexpr EffectEntry thermal_friction_of_all{
     .parameters = thermal_friction_of_all_parameters,
     .make = make_effect<ThermalFrictionOfAll>,
     .hooks = hooks_of<ThermalFrictionOfAll>(),
+    .of_contact = true,
 };
 
 }  // namespace feedtwin::plant::effects
