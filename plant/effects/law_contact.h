@@ -1,6 +1,6 @@
 #pragma once
 // The contact whose friction drifts, ages, warms up or varies along the stroke: the ball screw's, or on a direct drive,
-// which has none, the guide's (axis.friction_laws_on_guide).
+// whose screw has hardly any friction, the guide's (axis.friction_laws_on_guide).
 
 #include "plant/contacts.h"
 #include "plant/parameters.h"

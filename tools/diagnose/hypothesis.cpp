@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "plant/effects/registry.h"
 #include "tools/diagnose/hypotheses/registry.h"
 
 namespace feedtwin::tools::diagnosis {
@@ -58,7 +59,7 @@ bool runs_may_tell(const Active& active) {
 
 std::string_view component_of(const Active& active, const plant::AxisParameters& axis) {
   const Hypothesis& h = *active.hypothesis;
-  if (h.law_of_contact && axis.laws_on_guide()) return "guide";
+  if (axis.laws_on_guide() && plant::find_effect(h.id)->of_contact) return "guide";
   return h.component_for != nullptr ? h.component_for(active.q) : h.component;
 }
 

@@ -157,7 +157,6 @@ struct Hypothesis {
   std::optional<double> least_missed_nats_far_off = std::nullopt;
   /// And at most so many, where its size is none that false ones have; nullptr: of any size as many.
   double (*most_missed_nats_asked)(std::span<const double> q) = nullptr;
-  bool law_of_contact = false;   ///< changes the friction of the contact that laws change: screw, or guide of a direct drive
   bool law_of_speed = false;     ///< of speed alone, alike both ways
   bool follows_any_law = false;  ///< a smooth change of friction with speed or time, as any other law's mistakes are too
   /// So many deviations of its own, over stretches of the runs, must its amplitudes be from nothing, missed as it may be:

@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "plant/effects/registry.h"
 #include "tests/support/made_case.h"
 #include "tools/diagnose/inverse_model.h"
 #include "tools/diagnose/mended_case.h"
@@ -39,8 +40,7 @@ TEST(LawsOnGuide, SayInTheInverseModelWhatTheySaidOfTheScrew) {
   std::mt19937_64 random(3);  // NOLINT(bugprone-random-generator-seed): the same sizes every time
   int laws = 0;
   for (const auto& law : hypotheses()) {
-    // the force through the nut is reckoned with the guide's own friction
-    if (!law.law_of_contact || law.by_load) continue;
+    if (!plant::find_effect(law.id)->of_contact) continue;
     const std::vector<Active> effects{{&law, any_of(law, random)}};
     const Vector then = of_screw.residual(screw, effects), now = of_guide.residual(guide, effects);
     EXPECT_LT((then - now).norm(), 1e-9 * then.norm()) << law.id;

@@ -70,7 +70,6 @@ Hypothesis dwell_breakaway() {
           .admissible = possible,
           .sentence = "the {contact}'s breakaway rises with the rest before it, by up to {relative_rise} of itself",
           .least_gain = 100.0,  // friction about reversals is modelled worst: 33 to 93 where there was none, true ones 364
-          .law_of_contact = true,
           .about_reversals = true,
           .finding = finding,
           .confused_with = {"presliding_memory"},

@@ -53,7 +53,6 @@ Hypothesis friction_drift() {
 
           // beside a real contact's friction false ones were missed by 3 and 50 nats, right ones by 709 and more
           .least_missed_nats = 150.0,
-          .law_of_contact = true,
           .follows_any_law = true,
           .least_deviations = deviations_of_numbers,
           .confused_with = {"thermal_friction", "thermal_friction_of_all"},

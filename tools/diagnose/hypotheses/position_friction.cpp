@@ -54,7 +54,6 @@ Hypothesis position_friction() {
           "the {contact}'s friction grows along the stroke, from the middle to the end its sliding part by "
           "{relative_slope_per_half_stroke} of itself, its viscous part by {viscous_slope_forth_Ns_per_m} N s/m forth and "
           "{viscous_slope_back_Ns_per_m} N s/m back",
-      .law_of_contact = true,
       .confused_with = {"cable_spring", "local_friction"},
       .friction = true,
       .forces_too = true};

@@ -73,7 +73,6 @@ Hypothesis position_friction_wave() {
 
       // a real record's laps had 0.31 to 0.58 of it beside other names, that the closed loop did not miss; a true one 2.3
       .least_strength = 0.6,
-      .law_of_contact = true,
       .confused_with = {"local_friction", "cable_spring"},
       .shapes_for = periods_of,
       .friction = true,

@@ -42,7 +42,6 @@ Hypothesis sublinear_viscous() {
           .named = named,
           .admissible = possible,
           .sentence = "the {contact}'s viscous friction grows as the speed to the power {exponent}",
-          .law_of_contact = true,
           .law_of_speed = true,
           // of twelve names in seventeen sets the true ones had 11 and more, a false one beside a delay 1.4
           .least_deviations = 5.0,

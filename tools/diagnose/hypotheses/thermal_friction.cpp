@@ -74,7 +74,6 @@ Hypothesis thermal_friction() {
           "work",
 
       .least_missed_nats = 150.0,  // right ones 478 and more
-      .law_of_contact = true,
       .follows_any_law = true,
       .least_deviations = deviations_of_numbers,
       .confused_with = {"friction_drift"},
