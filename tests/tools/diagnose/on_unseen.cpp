@@ -133,5 +133,25 @@ TEST(OnUnseen, ALimitThatIsMetOnceIsHeldToNoOtherStretch) {
   }
 }
 
+// Two rows that a number puts on the other side of a gap's flank by a hair's breadth say nothing about it elsewhere; what
+// acts about a rest alone, a dozen rows or more, does.
+TEST(OnUnseen, AFlankOfAGapSaysNothingOfTheNumbers) {
+  const auto axis = plant::source_axis();
+  const InverseModel model(make_tracks({tests::make_recording(axis, {.motion = "sine", .duration_s = 8.0})}, axis), axis);
+  const Bar bar;
+  for (const Index flank : {2, 12}) {
+    Fit without;
+    without.base = {Fitter(model, axis).base().front()};
+    without.jacobian = Eigen::MatrixXd::Ones(model.rows(), 1);
+    without.white = Vector::Constant(model.rows(), 2.0);
+    for (Index k = 0; k < model.rows(); ++k) without.jacobian(k, 0) = k % 2 == 0 ? 1.0 : -0.5;
+    Fit with = without;
+    with.white.setConstant(0.1);
+    with.jacobian.col(0).segment(model.segments().front().start + 40, flank).setConstant(1e4);
+    const auto gains = gains_by_fold(model, with, without, bar.folds);
+    EXPECT_EQ(std::ranges::min(gains) > 0.0, flank == 2) << flank;
+  }
+}
+
 }  // namespace
 }  // namespace feedtwin
