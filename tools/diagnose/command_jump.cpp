@@ -94,6 +94,12 @@ bool as_late_as_before_the_command(const OneBody& one, double behind) {
   return half_ticks > std::max(least * (1.0 + behind), of_at_once * (1.0 - behind) + 0.2) && half_ticks < most;
 }
 
+/// Both are: one that shows the jump at once was read after it, and the other is late by itself.
+bool force_sensor_is_late_too(const OneBody& one) {
+  constexpr double least = 0.5;  // half ticks; 1.0 behind a screw that yields, 1.6 and more on rigid axes
+  return one.force_late_s() > least * one.half_tick_s();
+}
+
 /// However late a motor's friction that sets in over a path lets the torque sensor look.
 bool shown_by_its_jumps(const OneBody& one) {
   return shown_a_sample_later(shown_shift(one.model.tracks(), &Track::torque_sensor_N));
@@ -101,9 +107,10 @@ bool shown_by_its_jumps(const OneBody& one) {
 
 /// A command that is late makes all sensors look so; it is late for the motion too.
 bool command_is_late(const OneBody& one, const plant::AxisParameters& nominal) {
+  constexpr double late_for_the_motion_s = 6e-5;  // sensors that were read before it left 18 us at most
   const Fit fit =
       quickly_fitted(one.model, {nominal, {{&hypothesis("channel_skew"), {0.0, 0.0}}, {&hypothesis("input_delay"), {0.0}}}});
-  return fit.model.effects.back().q[0] > clearly_late_s;
+  return fit.model.effects.back().q[0] > late_for_the_motion_s;
 }
 
 /// By how late each looks: as it does behind a screw that swings too.
@@ -132,8 +139,8 @@ JumpShares jump_shares(const std::vector<Recording>& runs, const plant::AxisPara
              by_torque = with_torque && behind < most_that_tells;
   if (!by_force && !with_torque) return {};
   const OneBody one(runs, nominal);
-  if (with_torque && (as_late_as_before_the_command(one, behind) || shown_by_its_jumps(one)) &&
-      !command_is_late(one, nominal))
+  if (with_torque && (!by_force || force_sensor_is_late_too(one)) &&
+      (as_late_as_before_the_command(one, behind) || shown_by_its_jumps(one)) && !command_is_late(one, nominal))
     return shares_before_the_command(one, by_force);
   const double force = by_force ? force_share(one, runs, nominal, with_torque) : 1.0;
   const bool yields = force < 1.0 || (by_torque && as_late_as_behind_a_yielding_screw(one, behind));

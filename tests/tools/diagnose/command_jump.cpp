@@ -124,8 +124,17 @@ TEST(CommandJump, TheClosedLoopReadsThemBeforeTheCommandToo) {
   EXPECT_EQ(before.at("torque_cmd_Nm"), at_once.at("torque_cmd_Nm"));
 }
 
+// One late by an eighth of a sample has both sensors show each jump a whole sample later.
 TEST(CommandJump, ALateCommandIsNotReadBeforeIt) {
-  EXPECT_FALSE(of_a_heavy_table({tests::effect("input_delay", {{"delay_s", 9e-4}})}, false).before_command);
+  for (const double delay_s : {9e-4, 1.25e-4})
+    EXPECT_FALSE(of_a_heavy_table({tests::effect("input_delay", {{"delay_s", delay_s}})}, false).before_command) << delay_s;
+}
+
+TEST(CommandJump, ALateTorqueSensorBesideAForceSensorThatIsNotIsReadAfterTheCommand) {
+  for (const double late_s : {1.0e-3, 1.4e-3}) {
+    const auto late = tests::effect("channel_skew", {{"torque_sensor_delay_s", late_s}});
+    EXPECT_FALSE(of_a_heavy_table({late}, false).before_command) << late_s;
+  }
 }
 
 /// Without a force sensor.

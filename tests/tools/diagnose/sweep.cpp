@@ -40,6 +40,11 @@ class SweepOf : public ::testing::Test {
     return sweep_of(made_.model, residual);
   }
 
+  [[nodiscard]] const Vector& left() const { return made_.fit.residual; }
+  [[nodiscard]] const std::vector<Segment>& segments() const { return made_.model.segments(); }
+  [[nodiscard]] double row_s(const Segment& s) const { return made_.model.tracks()[s.run].row_s(); }
+  [[nodiscard]] std::optional<Sweep> of(const Vector& residual) const { return sweep_of(made_.model, residual); }
+
  private:
   static std::vector<tools::Recording> runs() {
     std::vector<tools::Recording> runs;
@@ -71,6 +76,27 @@ TEST_F(SweepOf, IsNoneOfALineThatStaysNorOfOneThatJumpsAbout) {
   EXPECT_FALSE(with_wave([](double) { return 21.0; }, 2.0).has_value());
   EXPECT_FALSE(with_wave([](double t_s) { return std::fmod(t_s, 1.0) < 0.5 ? 15.0 : 40.0; }, 2.0).has_value());
   EXPECT_FALSE(with_wave([](double) { return 0.0; }, 2.0).has_value()) << "noise alone";
+}
+
+// Some tens of Hz wide, it is a wave in every two seconds, as strong as one that sweeps, and its next seconds lead nowhere.
+TEST_F(SweepOf, IsNoneOfNoiseInANarrowBand) {
+  constexpr double middle_Hz = 48.0, half_power_Hz = 3.0;
+  for (unsigned seed = 1; seed <= 15; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> draw;
+    Vector residual = Vector::Zero(left().size());
+    for (const auto& s : segments()) {
+      const double radius = std::exp(-std::numbers::pi * half_power_Hz * row_s(s)),
+                   turn = 2.0 * std::numbers::pi * middle_Hz * row_s(s);
+      double last = 0.0, before = 0.0;
+      for (Index k = 0; k < s.size; ++k) {
+        const double now = 2.0 * radius * std::cos(turn) * last - radius * radius * before + draw(random);
+        before = last, last = now;
+        residual[s.start + k] = now;
+      }
+    }
+    EXPECT_FALSE(of(residual).has_value()) << seed;
+  }
 }
 
 // What a model leaves of a motion whose own frequency runs up does so too, and so do its harmonics.
