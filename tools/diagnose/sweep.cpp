@@ -14,6 +14,7 @@ namespace {
 constexpr double stretch_s = 2.0, lowest_Hz = 4.0, lowest_of_motion_Hz = 1.0;
 constexpr double step_Hz_per_s = 0.5;  // moves the ends of a stretch by half a Hz
 constexpr int most_steps = 120;
+constexpr double much_of_stretch = 0.2, nearly_all_of_stretch = 0.5;  ///< share of its squares
 
 /// The wave that is most of one stretch.
 struct Wave {
@@ -58,14 +59,14 @@ Wave strongest(const Stretch& stretch, double from_Hz) {
 bool moves(const Wave& wave) {
   // beside a plain regression of command on motion no axis of 163 cases of two generators had two such pairs in all its
   // runs; one that swept had 22 of 22
-  constexpr double least_share = 0.2, least_Hz_per_s = 1.0;
-  return wave.share > least_share && std::abs(wave.rate_Hz_per_s) >= least_Hz_per_s;
+  constexpr double least_Hz_per_s = 1.0;
+  return wave.share > much_of_stretch && std::abs(wave.rate_Hz_per_s) >= least_Hz_per_s;
 }
 
 /// Is it the motion's own wave, or a multiple of it? What the model leaves of a motion that sweeps is a sweep too.
 bool is_of(const Wave& motion, const Wave& wave) {
-  constexpr double least_share = 0.2, off_Hz = 1.0, off_Hz_per_s = 1.0, most_times = 5.0;
-  if (motion.share < least_share) return false;
+  constexpr double off_Hz = 1.0, off_Hz_per_s = 1.0, most_times = 5.0;
+  if (motion.share < much_of_stretch) return false;
   const double times = std::clamp(std::round(wave.middle_Hz / motion.middle_Hz), 1.0, most_times);
   return std::abs(wave.middle_Hz - times * motion.middle_Hz) < off_Hz &&
          std::abs(wave.rate_Hz_per_s - times * motion.rate_Hz_per_s) < off_Hz_per_s;
@@ -93,7 +94,7 @@ std::vector<Wave> waves_of(const InverseModel& model, const Vector& residual, co
     waves.emplace_back();
     if (2 * settled <= rows || stretch.values.squaredNorm() <= 0.0) continue;
     const Wave wave = strongest(stretch, lowest_Hz);
-    const bool may_be_of_motion = moves(wave) && motion.values.squaredNorm() > 0.0;
+    const bool may_be_of_motion = (moves(wave) || wave.share > nearly_all_of_stretch) && motion.values.squaredNorm() > 0.0;
     if (!may_be_of_motion || !is_of(strongest(motion, lowest_of_motion_Hz), wave)) waves.back() = wave;
   }
   return waves;
@@ -111,23 +112,46 @@ bool goes_on(const Wave& earlier, const Wave& later) {
   return moves(earlier) && moves(later) && std::abs(later.middle_Hz - leads_to_Hz) < off_Hz;
 }
 
+/// A wave that is nearly all of its stretches and moves little in each, but steadily: a line that only wanders turns back.
+bool creeps(const Wave& earlier, const Wave& later) {
+  constexpr double least_Hz = 0.3, off_Hz = 0.4;
+  const double by_Hz = later.middle_Hz - earlier.middle_Hz,
+               led_by_Hz = 0.25 * stretch_s * (earlier.rate_Hz_per_s + later.rate_Hz_per_s);
+  return std::min(earlier.share, later.share) > nearly_all_of_stretch && earlier.rate_Hz_per_s * by_Hz > 0.0 &&
+         later.rate_Hz_per_s * by_Hz > 0.0 && std::abs(by_Hz) > least_Hz && std::abs(by_Hz - led_by_Hz) < off_Hz;
+}
+
+/// Waves of one after the other that belong together, and how often two did.
+struct Chain {
+  std::vector<Wave> waves;
+  std::size_t pairs = 0, upward = 0;
+
+  void add(const std::vector<Wave>& of_a_run, bool (*belong)(const Wave&, const Wave&)) {
+    for (std::size_t i = 0; i < of_a_run.size(); ++i) {
+      const bool from_before = i > 0 && belong(of_a_run[i - 1], of_a_run[i]);
+      const bool into_next = i + 1 < of_a_run.size() && belong(of_a_run[i], of_a_run[i + 1]);
+      if (from_before) ++pairs;
+      if (from_before && of_a_run[i].rate_Hz_per_s > 0.0) ++upward;
+      if (from_before || into_next) waves.push_back(of_a_run[i]);
+    }
+  }
+  [[nodiscard]] bool one_way() const { return upward == 0 || upward == pairs; }
+};
+
 }  // namespace
 
 std::optional<Sweep> sweep_of(const InverseModel& model, const Vector& residual) {
-  constexpr std::size_t least_pairs = 4;
-  std::vector<Wave> swept;
-  std::size_t pairs = 0;
+  constexpr std::size_t least_pairs = 4, least_creeping = 6;
+  Chain fast, slow;
   for (const auto& s : model.segments()) {
     if (!model.equations()[s.equation].guide) continue;
     const auto waves = waves_of(model, residual, s);
-    for (std::size_t i = 0; i < waves.size(); ++i) {
-      const bool from_before = i > 0 && goes_on(waves[i - 1], waves[i]);
-      const bool into_next = i + 1 < waves.size() && goes_on(waves[i], waves[i + 1]);
-      if (from_before) ++pairs;
-      if (from_before || into_next) swept.push_back(waves[i]);
-    }
+    fast.add(waves, goes_on);
+    slow.add(waves, creeps);
   }
-  if (pairs < least_pairs) return std::nullopt;
+  const bool sweeps = fast.pairs >= least_pairs;
+  if (!sweeps && !(slow.pairs >= least_creeping && slow.one_way())) return std::nullopt;
+  const auto& swept = sweeps ? fast.waves : slow.waves;
   Sweep sweep{swept.front().middle_Hz, swept.front().middle_Hz, 0.0, 0.0};
   for (const auto& wave : swept) {
     const double half_Hz = 0.25 * stretch_s * std::abs(wave.rate_Hz_per_s);

@@ -17,7 +17,8 @@ struct Sweep {
 /// The sweep that the equation of the table holds (its own behind a force sensor, otherwise the sum), wherever the axis has
 /// settled.
 /// @param residual N, rows of all equations
-/// @return none where fewer than four stretches of two seconds go on from the one before, at a frequency that moves
+/// @return none where fewer than four stretches of two seconds go on from the one before, at a frequency that moves; six
+/// where it moves slower than 1 Hz a second, all one way
 [[nodiscard]] std::optional<Sweep> sweep_of(const InverseModel& model, const Vector& residual);
 
 }  // namespace feedtwin::tools::diagnosis

@@ -72,6 +72,17 @@ TEST_F(SweepOf, IsFoundWithItsRateUpAndDownInNoiseOfItsOwnSize) {
   }
 }
 
+// Its stretches move by less than what noise makes of a line, but each goes on the same way.
+TEST_F(SweepOf, IsFoundWhereItCreepsAndIsNearlyAllThatIsLeft) {
+  const auto sweep = with_wave([](double t_s) { return starts_Hz + 0.7 * t_s; }, 0.5);
+  ASSERT_TRUE(sweep.has_value());
+  EXPECT_NEAR(sweep->rate_Hz_per_s, 0.7, 0.2);
+  EXPECT_NEAR(sweep->low_Hz, starts_Hz, 1.0);
+  EXPECT_NEAR(sweep->high_Hz, starts_Hz + 0.7 * 7.0, 1.0) << "the last second holds no whole stretch";
+  const auto turns_back = [](double t_s) { return starts_Hz + 0.7 * (4.0 - std::abs(t_s - 4.0)); };
+  EXPECT_FALSE(with_wave(turns_back, 0.5).has_value());
+}
+
 TEST_F(SweepOf, IsNoneOfALineThatStaysNorOfOneThatJumpsAbout) {
   EXPECT_FALSE(with_wave([](double) { return 21.0; }, 2.0).has_value());
   EXPECT_FALSE(with_wave([](double t_s) { return std::fmod(t_s, 1.0) < 0.5 ? 15.0 : 40.0; }, 2.0).has_value());
@@ -80,8 +91,10 @@ TEST_F(SweepOf, IsNoneOfALineThatStaysNorOfOneThatJumpsAbout) {
 
 // Some tens of Hz wide, it is a wave in every two seconds, as strong as one that sweeps, and its next seconds lead nowhere.
 TEST_F(SweepOf, IsNoneOfNoiseInANarrowBand) {
-  constexpr double middle_Hz = 48.0, half_power_Hz = 3.0;
-  for (unsigned seed = 1; seed <= 15; ++seed) {
+  constexpr double middle_Hz = 48.0;
+  // of 24 such noises these four went on where they led by chance, but not as fast; and two lines that wander
+  for (const unsigned seed : {8u, 13u, 15u, 18u, 1u, 2u}) {
+    const double half_power_Hz = seed > 2 ? 3.0 : 0.2;
     std::mt19937 random(seed);
     std::normal_distribution<double> draw;
     Vector residual = Vector::Zero(left().size());
