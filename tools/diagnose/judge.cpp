@@ -45,9 +45,9 @@ void freeze_flips(const InverseModel& model, const Fit& fit, Eigen::MatrixXd& ja
   for (const auto& segment : model.segments())
     for (Index column = 0; segment.size > 0 && column < fit.base_count(); ++column) {
       auto own = jacobian.col(column).segment(segment.start, segment.size);
-      for (double all = own.squaredNorm(); all > 0.0; all = own.squaredNorm()) {
+      while (own.squaredNorm() > 0.0) {
         const auto flips = (own.array().abs() > share * own.cwiseAbs().maxCoeff()).eval();
-        if (flips.count() > few || flips.select(own, 0.0).squaredNorm() < 0.5 * all) break;
+        if (flips.count() > few || flips.select(own, 0.0).squaredNorm() < 0.5 * own.squaredNorm()) break;
         own = flips.select(0.0, own);
       }
     }
