@@ -100,6 +100,11 @@ std::vector<Wave> waves_of(const InverseModel& model, const Vector& residual, co
   return waves;
 }
 
+/// How far the later one, half a stretch on, is off where the earlier one leads, each as fast for half of the way.
+double off_its_way_Hz(const Wave& earlier, const Wave& later) {
+  return std::abs(later.middle_Hz - earlier.middle_Hz - 0.25 * stretch_s * (earlier.rate_Hz_per_s + later.rate_Hz_per_s));
+}
+
 /// Does the later one, half a stretch on, go on where the earlier one leads, about as fast? Noise of a narrow band is a wave
 /// in each stretch too, and one that half shares its rows with the next: four pairs of an axis with nothing hidden turned
 /// from -2.5 to +8 Hz a second, from 5 to -4.
@@ -108,17 +113,15 @@ bool goes_on(const Wave& earlier, const Wave& later) {
   const double fastest_Hz_per_s = std::max(std::abs(earlier.rate_Hz_per_s), std::abs(later.rate_Hz_per_s));
   if (std::abs(later.rate_Hz_per_s - earlier.rate_Hz_per_s) > std::max(off_Hz_per_s, off_share * fastest_Hz_per_s))
     return false;
-  const double leads_to_Hz = earlier.middle_Hz + 0.25 * stretch_s * (earlier.rate_Hz_per_s + later.rate_Hz_per_s);
-  return moves(earlier) && moves(later) && std::abs(later.middle_Hz - leads_to_Hz) < off_Hz;
+  return moves(earlier) && moves(later) && off_its_way_Hz(earlier, later) < off_Hz;
 }
 
 /// A wave that is nearly all of its stretches and moves little in each, but steadily: a line that only wanders turns back.
 bool creeps(const Wave& earlier, const Wave& later) {
   constexpr double least_Hz = 0.3, off_Hz = 0.4;
-  const double by_Hz = later.middle_Hz - earlier.middle_Hz,
-               led_by_Hz = 0.25 * stretch_s * (earlier.rate_Hz_per_s + later.rate_Hz_per_s);
+  const double by_Hz = later.middle_Hz - earlier.middle_Hz;
   return std::min(earlier.share, later.share) > nearly_all_of_stretch && earlier.rate_Hz_per_s * by_Hz > 0.0 &&
-         later.rate_Hz_per_s * by_Hz > 0.0 && std::abs(by_Hz) > least_Hz && std::abs(by_Hz - led_by_Hz) < off_Hz;
+         later.rate_Hz_per_s * by_Hz > 0.0 && std::abs(by_Hz) > least_Hz && off_its_way_Hz(earlier, later) < off_Hz;
 }
 
 /// Waves of one after the other that belong together, and how often two did.

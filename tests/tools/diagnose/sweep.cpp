@@ -113,10 +113,13 @@ TEST_F(SweepOf, IsNoneOfNoiseInANarrowBand) {
 }
 
 // What a model leaves of a motion whose own frequency runs up does so too, and so do its harmonics.
-TEST(Sweep, IsNoneOfTheMotionsOwn) {
+class SweepOfTheMotion : public ::testing::TestWithParam<double> {};
+
+TEST_P(SweepOfTheMotion, IsNone) {
   auto path = std::make_shared<controllers::RecordedPath>();
-  constexpr double from_Hz = 3.0, rate_Hz_per_s = 1.0, amplitude_m = 2e-3;
-  const auto cycles = [](double t_s) { return t_s * (from_Hz + 0.5 * rate_Hz_per_s * t_s); };
+  constexpr double from_Hz = 3.0, amplitude_m = 2e-3;
+  const double rate_Hz_per_s = GetParam();
+  const auto cycles = [rate_Hz_per_s](double t_s) { return t_s * (from_Hz + 0.5 * rate_Hz_per_s * t_s); };
   for (int i = 0; i < 8000; ++i) {
     const double t_s = 1e-3 * i, phase = 2.0 * std::numbers::pi * cycles(t_s),
                  rad_per_s = 2.0 * std::numbers::pi * (from_Hz + rate_Hz_per_s * t_s);
@@ -135,6 +138,9 @@ TEST(Sweep, IsNoneOfTheMotionsOwn) {
     EXPECT_EQ(sweep_of(made.model, residual).has_value(), times == 1.6) << times;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Rates, SweepOfTheMotion, ::testing::Values(1.0, 0.6),
+                         [](const auto& rate) { return rate.param < 1.0 ? "Creeping" : "Fast"; });
 
 }  // namespace
 }  // namespace feedtwin
