@@ -52,11 +52,21 @@ Vector Fitter::deviations(const plant::AxisParameters& axis) const {
   return out;
 }
 
+Vector Fitter::from_prior(const Candidate& at) const {
+  Vector all = deviations(at.axis);
+  for (const auto& effect : at.effects) {
+    if (effect.hypothesis->unlikely == nullptr) continue;
+    all.conservativeResize(all.size() + 1);
+    all[all.size() - 1] = effect.hypothesis->unlikely(effect.q, at.axis);
+  }
+  return all;
+}
+
 Vector Fitter::whitened(const Candidate& at, const Vector& residual, const Whitening& whitening) const {
-  const auto n = static_cast<Index>(base_.size());
-  Vector white(residual.size() + n);
+  const Vector prior = from_prior(at);
+  Vector white(residual.size() + prior.size());
   white.head(residual.size()) = whitening.applied(model_, residual);
-  white.tail(n) = -deviations(at.axis);
+  white.tail(prior.size()) = -prior;
   return white;
 }
 
@@ -161,6 +171,7 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
   std::vector<const std::vector<ContactForces>*> own;
   auto next = contacts.begin() + 1;
   for (const auto& one : beside) own.push_back(one.refollow ? &*next++ : &contacts.front());
+  const Vector prior = from_prior(at);
   fit.jacobian.resize(fit.white.size(), static_cast<Index>(beside.size()));
   ask_for_large_pages(fit.jacobian);
   parallel_for(beside.size(), [&](std::size_t u) {
@@ -171,7 +182,7 @@ Fit Fitter::linearised(const Candidate& at, const Whitening& whitening) const {
       return;
     }
     column.head(model_.rows()) = neighbours.fall(near.axis, near.effects, *own[u]) / step;
-    column.tail(static_cast<Index>(base_.size())) = (deviations(near.axis) - deviations(at.axis)) / step;
+    column.tail(prior.size()) = (from_prior(near) - prior) / step;
     whitening.apply(model_, column.head(model_.rows()));
   });
 

@@ -28,7 +28,7 @@ struct Candidate {
 struct Fit {
   Candidate model;
   Vector residual;              ///< in the equations' units
-  Vector white;                 ///< whitened residual, then the prior's
+  Vector white;                 ///< whitened residual, then the priors': of the nominal numbers, of effects that have one
   Eigen::MatrixXd jacobian;     ///< of `white` by the unknowns, negative: white ~ white0 - jacobian * change
   Eigen::MatrixXd information;  ///< jacobian' jacobian
   Eigen::MatrixXd covariance;   ///< of the unknowns
@@ -69,6 +69,8 @@ class Fitter {
   [[nodiscard]] double tolerance(std::size_t parameter) const;
 
  private:
+  /// How far the nominal numbers, and effects that have a prior, are from where they are thought to be.
+  [[nodiscard]] Vector from_prior(const Candidate& at) const;
   [[nodiscard]] Vector whitened(const Candidate& at, const Vector& residual, const Whitening& whitening) const;
   /// The model with one unknown a small step away, for differences.
   struct Beside {

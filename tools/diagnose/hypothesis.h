@@ -128,6 +128,9 @@ struct Hypothesis {
   std::vector<std::vector<double>> shapes;  ///< grid of the shape parameters; one empty entry where there are none
   void (*apply)(const View& view, std::span<const double> q, Contribution& sum) = nullptr;
   std::vector<NamedValue> (*named)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
+  /// How unlikely such a thing is with these numbers, in deviations: a prior beside those of the nominal numbers, where the
+  /// rows say little. nullptr: all are alike.
+  double (*unlikely)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
   /// Is the fitted value physically possible? nullptr: always.
   bool (*admissible)(std::span<const double> q, const plant::AxisParameters& axis) = nullptr;
   std::string_view sentence;  ///< what it is, in an engineer's words; {name} stands for a value with its interval, {contact}

@@ -109,7 +109,7 @@ bool gains_for_its_size(const Fit& with, const Hypothesis& hypothesis, double ga
 }
 
 double prior_part(const Fit& fit) {
-  return fit.white.tail(fit.base_count()).squaredNorm();
+  return fit.white.segment(fit.residual.size(), fit.base_count()).squaredNorm();
 }
 
 }  // namespace
