@@ -48,12 +48,12 @@ struct Made {
   }
 };
 
-struct Asked {
+struct SetsIn {
   double in_fit_m, in_recalibrated_m;
   std::optional<Ruling> settled;
 };
 
-Asked asked_of(double truth_m, bool torque_sensor) {
+SetsIn asked_of(double truth_m, bool torque_sensor) {
   auto nominal = plant::source_axis();
   nominal.motor.coulomb_N.pos *= 0.95;
   const Made made(axis_over(truth_m), nominal, torque_sensor);

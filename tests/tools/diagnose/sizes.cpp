@@ -164,6 +164,7 @@ TEST(Sizes, WhatIsNotFarFromNothingIsTakenBackHoweverMuchItIsMissed) {
   for (const double deviation_N : {1.5, 4.0}) {
     Fit fit = made.fitter.linearised(model, made.whitening);
     SearchResult result;
+    result.whitening = made.whitening;
     result.found.emplace_back().effect = model.effects[0];
     result.found[0].missed_nats = 1000.0;
     Eigen::MatrixXd covariance = fit.covariance;
@@ -172,6 +173,45 @@ TEST(Sizes, WhatIsNotFarFromNothingIsTakenBackHoweverMuchItIsMissed) {
     covariance.bottomRightCorner<2, 2>().diagonal().setConstant(std::pow(deviation_N, 2));
     drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
     EXPECT_EQ(fit.model.effects.size(), deviation_N < 2.0 ? 1U : 0U) << deviation_N;  // 13 from nothing; 5
+  }
+}
+
+/// Runs with a cable's spring, and both engines on them.
+struct OnACable {
+  static constexpr double stiffness_N_per_m = 600.0;
+  tools::Case data = made();
+  InverseModel model{make_tracks(data.fit, data.axis), data.axis};
+  Fitter fitter{model, data.axis};
+  ForwardModel forward{data.fit, data};
+  Whitening whitening = fitter.colour_of(model.residual(data.axis, {}));
+  Candidate with_spring{data.axis, {{&hypothesis("cable_spring"), {stiffness_N_per_m, 0.0}}}};
+
+  static tools::Case made() {
+    auto truth = plant::source_axis();
+    truth.effects.push_back(tests::effect("cable_spring", {{"stiffness_N_per_m", stiffness_N_per_m}, {"neutral_m", 0.0}}));
+    tools::Case data;
+    data.axis = plant::source_axis();
+    for (const char* motion : {"sine", "triangle"})
+      data.fit.push_back(tests::make_recording(truth, {.motion = motion, .duration_s = 8.0, .sensors = false}));
+    return data;
+  }
+};
+
+// Its own deviations are wide; what it does is not.
+TEST(Sizes, AnEffectWithoutWhichStructureComesBackStaysIfItIsMissedAtAll) {
+  const OnACable made;
+  for (const double missed_nats : {20.0, 1.0}) {
+    Fit fit = made.fitter.linearised(made.with_spring, made.whitening);
+    SearchResult result;
+    result.whitening = made.whitening;
+    result.found.emplace_back().effect = made.with_spring.effects.front();
+    result.found.front().missed_nats = missed_nats;
+    Eigen::MatrixXd covariance = fit.covariance;
+    covariance.bottomRows(2).setZero();
+    covariance.rightCols(2).setZero();
+    covariance.bottomRightCorner<2, 2>().diagonal().setConstant(std::pow(3.0 * OnACable::stiffness_N_per_m, 2));
+    drop_sizeless(made.forward, made.fitter, made.with_spring, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), missed_nats > 3.0 ? 1U : 0U);
   }
 }
 
