@@ -14,6 +14,7 @@
 #include "tools/diagnose/forward/gain_in_numbers.h"
 #include "tools/diagnose/forward/hidden.h"
 #include "tools/diagnose/forward/missed.h"
+#include "tools/diagnose/forward/most_of_the_way.h"
 #include "tools/diagnose/forward/pictures.h"
 #include "tools/diagnose/forward/polish.h"
 #include "tools/diagnose/forward/second_look.h"
@@ -87,7 +88,7 @@ class Diagnosing {
     const auto names_confirmed = fit_.model.effects;
     settled_ = Arbiter(forward_, fitter_, progress_).settle(found_, fit_, std::move(settled_));
     if (!same_names(names_confirmed)) ask_the_others_again();
-    unknown_ = beyond_the_catalogue(fitter_, found_, fit_.model, progress_);
+    unknown_ = is_unknown(forward_, fitter_, found_, fit_.model, progress_);
     if (unknown_) return;
     const auto names_asked = fit_.model.effects;
     forward_.learn_meter_noise(extended(settled_ ? settled_->model : fit_.model));
@@ -101,7 +102,7 @@ class Diagnosing {
   /// A name that went may have stood for what none of the catalogue is.
   void ask_again_what_is_unknown(const std::vector<Active>& asked, const Candidate& now) {
     const auto gone = [&](const Active& then) { return !has(now, *then.hypothesis); };
-    if (std::ranges::any_of(asked, gone)) unknown_ = beyond_the_catalogue(fitter_, found_, now, progress_);
+    if (std::ranges::any_of(asked, gone)) unknown_ = is_unknown(forward_, fitter_, found_, now, progress_);
   }
 
   /// What went may have hidden another.
@@ -256,7 +257,7 @@ class Diagnosing {
   /// What was named for want of better, and unseen runs deny, may be none of the catalogue.
   void ask_what_was_denied() {
     told_ = found_.recalibrated.model;
-    unknown_ = beyond_the_catalogue(fitter_, found_, told_, progress_);
+    unknown_ = is_unknown(forward_, fitter_, found_, told_, progress_);
     if (unknown_) take_as_unknown(learn_remainder(model_, told_));
     tell_the_numbers_alone();
   }

@@ -1,0 +1,40 @@
+#include "tools/diagnose/forward/most_of_the_way.h"
+
+#include <fmt/format.h>
+
+#include "tools/diagnose/forward/closest.h"
+#include "tools/diagnose/forward/extended_axis.h"
+#include "tools/diagnose/verdict.h"
+
+namespace feedtwin::tools::diagnosis {
+
+double share_of_the_way(const Nrmse& without, const Nrmse& with, const Nrmse& floor) {
+  constexpr double beyond_noise = 2.0;
+  double sum = 0.0, channels = 0.0;
+  for (const auto& [channel, error] : without) {
+    if (error <= beyond_noise * floor.at(channel)) continue;
+    sum += (error - with.at(channel)) / (error - floor.at(channel));
+    channels += 1.0;
+  }
+  return channels > 0.0 ? sum / channels : 0.0;
+}
+
+bool names_go_most_of_the_way(const ForwardModel& forward, const Fitter& fitter, const Candidate& numbers,
+                              const Candidate& named, const std::function<void(std::string_view)>& progress) {
+  constexpr double most = 0.45;
+  if (names_no_force(named) || forward.spent()) return false;
+  const auto alone = extended(polished_if_closer(forward, fitter, numbers)),
+             together = extended(polished_if_closer(forward, fitter, named));
+  const double share = share_of_the_way(forward.nrmse(alone), forward.nrmse(together), forward.noise_floor(together));
+  progress(
+      fmt::format("closed loop: the names go {:.0f} % of the way from the recalibrated numbers to noise", 100.0 * share));
+  return share > most;
+}
+
+bool is_unknown(const ForwardModel& forward, const Fitter& fitter, const SearchResult& found, const Candidate& model,
+                const std::function<void(std::string_view)>& progress) {
+  return beyond_the_catalogue(fitter, found, model, progress) &&
+         !names_go_most_of_the_way(forward, fitter, found.recalibrated.model, model, progress);
+}
+
+}  // namespace feedtwin::tools::diagnosis
