@@ -21,9 +21,9 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 3e-9;
 }
 
-/// Stiffer than 200 N/um is no finding: every screw yields a little.
+/// Stiffer than 100 N/um is no finding.
 bool finding(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  return q[0] > 5e-9;
+  return q[0] > 1e-8;
 }
 
 }  // namespace
