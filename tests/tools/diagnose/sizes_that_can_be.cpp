@@ -16,6 +16,15 @@ namespace {
 
 using namespace tools::diagnosis;
 
+TEST(ScrewCompliance, IsNoFindingWhereEveryMachineHasIt) {
+  const auto finding = [](double stiffness_N_per_m) {
+    return worth_naming({&hypothesis("screw_compliance"), {1.0 / stiffness_N_per_m, 0.0}}, plant::source_axis());
+  };
+  EXPECT_TRUE(finding(4e7));
+  EXPECT_TRUE(finding(9.5e7));
+  EXPECT_FALSE(finding(1.5e8)) << "machines with nothing hidden yield by 150 N/um and more";
+}
+
 TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCouldBeIt) {
   auto axis = plant::source_axis();
   const auto finding = [&](double force_N, double distance_m) {
