@@ -77,7 +77,7 @@ TEST(ReadingStructure, NothingStandsOutOfAnAxisThatTheModelHolds) {
   }
 }
 
-TEST(ReadingStructure, AMetersFewReadingsKeepTimeByChanceMoreThanASensors) {
+TEST(ReadingStructure, AMetersFewReadingsAndACommandKeepTimeByChanceMoreThanASensor) {
   const auto stands_out = [](std::string_view channel, double share) {
     ReadingStructure reading;
     reading.channel = channel;
@@ -88,6 +88,8 @@ TEST(ReadingStructure, AMetersFewReadingsKeepTimeByChanceMoreThanASensors) {
   };
   EXPECT_FALSE(stands_out(tools::channel::power_W, 0.13));
   EXPECT_TRUE(stands_out(tools::channel::power_W, 0.45));
+  EXPECT_FALSE(stands_out(tools::channel::torque_cmd_Nm, 0.13)) << "what disturbs the axis slowly is in it";
+  EXPECT_TRUE(stands_out(tools::channel::torque_cmd_Nm, 0.45));
   EXPECT_TRUE(stands_out(tools::channel::scale_position_m, 0.13));
 }
 
