@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/tools/diagnose/cogged.h"
+#include "tools/diagnose/verdict.h"
 
 namespace feedtwin {
 namespace {
@@ -37,6 +40,42 @@ TEST(MostOfTheWay, ARightNameGoesItAndAWrongOneOrNoneDoesNot) {
   said.clear();
   EXPECT_FALSE(goes(numbers));
   EXPECT_TRUE(said.empty()) << "nothing to ask about";
+}
+
+/// Runs with a damaged spot, of which as many newtons are told as an effect has; all else is right.
+struct OnASpot {
+  static constexpr double height_N = 60.0, centre_m = 0.0, half_width_m = 0.004;
+  tools::Case data = made();
+  InverseModel model{make_tracks(data.fit, data.axis), data.axis};
+  Fitter fitter{model, data.axis};
+  ForwardModel forward{data.fit, data};
+
+  static tools::Case made() {
+    auto truth = plant::source_axis();
+    truth.effects.push_back(
+        tests::effect("local_friction", {{"height_N", height_N}, {"centre_m", centre_m}, {"half_width_m", half_width_m}}));
+    return tests::short_case(truth, plant::source_axis());
+  }
+  /// By the inverse model alone, and by both engines.
+  [[nodiscard]] std::pair<bool, bool> unknown_with(const std::vector<Active>& told) const {
+    SearchResult found;
+    found.recalibrated.model = {data.axis, {}};
+    found.recalibrated.residual = model.residual(data.axis, {});
+    for (const auto& effect : told) found.found.emplace_back().effect = effect;
+    const Candidate named{data.axis, told};
+    return {beyond_the_catalogue(fitter, found, named, tests::silent),
+            is_unknown(forward, fitter, found, named, tests::silent)};
+  }
+};
+
+TEST(IsUnknown, NotWhereTheClosedLoopGoesItsWayByTheNames) {
+  const OnASpot made;
+  const Active a_quarter{&hypothesis("local_friction"),
+                         {0.25 * OnASpot::height_N, OnASpot::centre_m, OnASpot::half_width_m, 0.0}},
+      another{&hypothesis("cable_spring"), {5.0, 0.0}};
+  EXPECT_EQ(made.unknown_with({a_quarter}), std::pair(true, false));
+  EXPECT_EQ(made.unknown_with({another}), std::pair(true, true));
+  EXPECT_EQ(made.unknown_with({}), std::pair(true, true));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class Asked {
                       "from nominal",
                       in_words(now, settled.model.axis), -named->missed_nats, farther));
       double short_of_nats = cannot_be ? 1e300 : nats_to_stay(*named, farther) - named->missed_nats;
-      if (short_of_nats > 0.0 && !cannot_be && structure_comes_back(named->missed_nats, fit, rest.fit)) {
+      if (short_of_nats > 0.0 && !cannot_be && structure_comes_back(fitter_, named->missed_nats, fit.residual, rest.fit)) {
         progress_(fmt::format("closed loop: without {} structure comes back that no other name has", hypothesis->id));
         short_of_nats = 0.0;
       }
@@ -77,11 +77,6 @@ class Asked {
   }
 
  private:
-  [[nodiscard]] bool structure_comes_back(double missed_nats, const Fit& with, const Fit& without) const {
-    return leaves_structure(missed_nats, fitter_.structure().remaining(with.residual),
-                            fitter_.structure().remaining(without.residual), names_no_force(without.model));
-  }
-
   /// Not of what numbers could do: there a channel far worse is what it takes to be without it.
   [[nodiscard]] bool likelier_at_a_channels_cost(const Ruling& rest, const Ruling& settled,
                                                  const Hypothesis& missing) const {
@@ -162,6 +157,11 @@ bool leaves_structure(double missed_nats, const Structure& with, const Structure
   constexpr double least_nats = 3.0;  // a cable's spring that was there was missed by 8, a false name by 1
   return missed_nats > least_nats && without.is_unknown(nothing_named) &&
          std::pow(without.structured_N(), 2) > times_as_much * std::pow(with.structured_N(), 2);
+}
+
+bool structure_comes_back(const Fitter& fitter, double missed_nats, const Vector& with, const Fit& without) {
+  return leaves_structure(missed_nats, fitter.structure().remaining(with), fitter.structure().remaining(without.residual),
+                          names_no_force(without.model));
 }
 
 double nats_beside(const Hypothesis& h, double most_missed_nats) {

@@ -36,6 +36,10 @@ inline constexpr double clearly_nearer = 10.0;
 [[nodiscard]] bool leaves_structure(double missed_nats, const Structure& with, const Structure& without,
                                     bool nothing_named = false);
 
+/// The same of a fit without the name.
+/// @param with what the force equations leave over with it
+[[nodiscard]] bool structure_comes_back(const Fitter& fitter, double missed_nats, const Vector& with, const Fit& without);
+
 /// Beside the name that is missed most: no law here is that of the machine to the last per cent, and what a strong one
 /// leaves over looks like a weak one that any smooth change of friction is.
 [[nodiscard]] double nats_beside(const Hypothesis& h, double most_missed_nats);

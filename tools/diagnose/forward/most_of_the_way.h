@@ -17,7 +17,7 @@ namespace feedtwin::tools::diagnosis {
 
 /// Do names that rest on a force go about half of it or more? Structure that they leave is then what their law simplifies,
 /// or the contact beside them, and none of the unknown. A load's friction on a contact of eight elements went 0.55 of it and
-/// left 0.38 N of 0.6 N; false names, of eight in 44 cases outside the catalogue, 0.32 at most.
+/// left 0.38 N of 0.6 N; false names, of ten in 48 cases outside the catalogue, 0.32 at most.
 /// @param numbers the recalibrated numbers alone
 [[nodiscard]] bool names_go_most_of_the_way(const ForwardModel& forward, const Fitter& fitter, const Candidate& numbers,
                                             const Candidate& named, const std::function<void(std::string_view)>& progress);

@@ -68,19 +68,16 @@ double deviations_from_nothing(const Active& effect, const Eigen::MatrixXd& cova
 }
 
 /// Does structure come back without the name that none of the catalogue explains? However near to nothing its size then
-/// seems to be, it is not nothing: a warming by 0.75 of 0.75, 7 deviations from nothing beside a screw that grows, left 3.7
-/// N.
-bool structure_comes_back(const Fitter& fitter, const Candidate& by_inverse_model, SearchResult& found,
-                          const Hypothesis* hypothesis) {
+/// seems to be, it is not nothing: a warming of 0.75, 7 deviations from it beside a screw that grows, left 3.7 N.
+bool leaves_the_unknown(const Fitter& fitter, const Candidate& by_inverse_model, SearchResult& found,
+                        const Hypothesis* hypothesis) {
   const auto own = std::ranges::find(by_inverse_model.effects, hypothesis, &Active::hypothesis);
   const Found* named = found.of(hypothesis);
   if (named == nullptr || named->missed_nats <= 0.0 || own == by_inverse_model.effects.end()) return false;
   const auto place = static_cast<std::size_t>(own - by_inverse_model.effects.begin());
   const Fit rest = fitter.fit(without(by_inverse_model, place), found.whitening, refit_iterations);
-  const auto remaining = [&](const Vector& residual) { return fitter.structure().remaining(residual); };
-  return leaves_structure(named->missed_nats,
-                          remaining(fitter.model().residual(by_inverse_model.axis, by_inverse_model.effects)),
-                          remaining(rest.residual), names_no_force(rest.model));
+  const Vector with = fitter.model().residual(by_inverse_model.axis, by_inverse_model.effects);
+  return structure_comes_back(fitter, named->missed_nats, with, rest);
 }
 
 /// Of a channel's error, as a share of it.
@@ -148,7 +145,7 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     const bool sure = named != nullptr && named->missed_nats > surely_missed_nats;
     const bool shows =
         possible(fit.model.effects[e], fit.model.axis) && (sure || (agreed && largest_change(with, less) > least));
-    bool has_size = shows && (!nothing || structure_comes_back(fitter, by_inverse_model, found, hypothesis));
+    bool has_size = shows && (!nothing || leaves_the_unknown(fitter, by_inverse_model, found, hypothesis));
     if (has_size && !told && !sure) {  // the other numbers may take up what it does
       rest = polished_if_closer(forward, fitter, rest);
       less = forward.nrmse(extended(rest));
