@@ -50,12 +50,13 @@ struct OnASpot {
   Fitter fitter{model, data.axis};
   ForwardModel forward{data.fit, data};
 
-  static tools::Case made() {
+  static plant::AxisParameters with_the_spot() {
     auto truth = plant::source_axis();
     truth.effects.push_back(
         tests::effect("local_friction", {{"height_N", height_N}, {"centre_m", centre_m}, {"half_width_m", half_width_m}}));
-    return tests::short_case(truth, plant::source_axis());
+    return truth;
   }
+  static tools::Case made() { return tests::short_case(with_the_spot(), plant::source_axis()); }
   /// By the inverse model alone, and by both engines.
   [[nodiscard]] std::pair<bool, bool> unknown_with(const std::vector<Active>& told) const {
     SearchResult found;
@@ -76,6 +77,24 @@ TEST(IsUnknown, NotWhereTheClosedLoopGoesItsWayByTheNames) {
   EXPECT_EQ(made.unknown_with({a_quarter}), std::pair(true, false));
   EXPECT_EQ(made.unknown_with({another}), std::pair(true, true));
   EXPECT_EQ(made.unknown_with({}), std::pair(true, true));
+}
+
+TEST(IsUnknown, NotWhereTheNumbersAloneBringTheClosedLoopToItsNoise) {
+  const OnASpot made;
+  SearchResult found;
+  found.recalibrated.model = {OnASpot::with_the_spot(), {}};  // as if numbers did what the spot does
+  found.recalibrated.residual = made.model.residual(made.data.axis, {});
+  const Candidate nothing{made.data.axis, {}};
+  ASSERT_TRUE(beyond_the_catalogue(made.fitter, found, nothing, tests::silent));
+  EXPECT_FALSE(is_unknown(made.forward, made.fitter, found, nothing, tests::silent));
+  found.recalibrated.model = nothing;
+  EXPECT_TRUE(is_unknown(made.forward, made.fitter, found, nothing, tests::silent));
+}
+
+TEST(TimesNoise, IsOfTheWorstChannelButThePowerMeters) {
+  const Nrmse floor{{"torque_cmd_Nm", 0.01}, {"force_sensor_N", 0.02}, {"power_W", 0.001}, {"scale_position_m", 0.0}};
+  const Nrmse error{{"torque_cmd_Nm", 0.03}, {"force_sensor_N", 0.05}, {"power_W", 0.5}, {"scale_position_m", 0.1}};
+  EXPECT_NEAR(times_noise(error, floor), 3.0, 1e-12);
 }
 
 }  // namespace

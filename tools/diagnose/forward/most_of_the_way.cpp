@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/diagnose/forward/closest.h"
 #include "tools/diagnose/forward/extended_axis.h"
 #include "tools/diagnose/verdict.h"
@@ -31,10 +33,30 @@ bool names_go_most_of_the_way(const ForwardModel& forward, const Fitter& fitter,
   return share > most;
 }
 
+/// The meter's own noise is learned later: a force shows in the others.
+double times_noise(const Nrmse& error, const Nrmse& floor) {
+  double most = 0.0;
+  for (const auto& [channel, value] : error)
+    if (channel != channel::power_W && floor.at(channel) > 0.0) most = std::max(most, value / floor.at(channel));
+  return most;
+}
+
+bool numbers_reach_noise(const ForwardModel& forward, const Fitter& fitter, const Candidate& numbers,
+                         const std::function<void(std::string_view)>& progress) {
+  constexpr double about_noise = 2.5;
+  if (forward.spent()) return false;
+  const auto alone = extended(polished_if_closer(forward, fitter, numbers));
+  const double most = times_noise(forward.nrmse(alone), forward.noise_floor(alone));
+  progress(fmt::format(
+      "closed loop: with the recalibrated numbers alone no channel is off by more than {:.1f} times its noise", most));
+  return most < about_noise;
+}
+
 bool is_unknown(const ForwardModel& forward, const Fitter& fitter, const SearchResult& found, const Candidate& model,
                 const std::function<void(std::string_view)>& progress) {
-  return beyond_the_catalogue(fitter, found, model, progress) &&
-         !names_go_most_of_the_way(forward, fitter, found.recalibrated.model, model, progress);
+  if (!beyond_the_catalogue(fitter, found, model, progress)) return false;
+  if (names_no_force(model)) return !numbers_reach_noise(forward, fitter, found.recalibrated.model, progress);
+  return !names_go_most_of_the_way(forward, fitter, found.recalibrated.model, model, progress);
 }
 
 }  // namespace feedtwin::tools::diagnosis
