@@ -78,6 +78,27 @@ TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
   EXPECT_EQ(left_of(0.03, -5.0), 0U) << "the closed loop does better without";
 }
 
+// What every unseen stretch bears out may be little beside a noisy channel.
+TEST(Sizes, WhatStandsOnEveryUnseenFoldMayBeLittleBesideNoise) {
+  const Cogged made;
+  const auto stays = [&made](bool held_everywhere, double strength, double missed_nats) {
+    constexpr double little_Nm = 0.00025;  // beside cogging of 0.01: 2.5 % of what is left
+    const Candidate model{made.data.axis, {{&hypothesis("cogging"), {little_Nm, 0.0, 8.0}}}};
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    Found& named = result.found.emplace_back();
+    named.effect = model.effects.front();
+    named.held_everywhere = held_everywhere, named.strength = strength, named.missed_nats = missed_nats;
+    Eigen::MatrixXd covariance = 1e-12 * Eigen::MatrixXd::Identity(fit.covariance.rows(), fit.covariance.cols());
+    drop_sizeless(made.forward, made.fitter, model, result, fit, covariance, silent);
+    return !fit.model.effects.empty();
+  };
+  EXPECT_TRUE(stays(true, 0.5, 200.0));
+  EXPECT_FALSE(stays(false, 0.5, 200.0));
+  EXPECT_FALSE(stays(true, 0.2, 200.0));
+  EXPECT_FALSE(stays(true, 0.5, 50.0));
+}
+
 // A slope of sliding friction in parts of it, and of the viscous in N s/m: what the one engine has of the second is no
 // measure of the first.
 TEST(Sizes, AmplitudesOfOtherUnitsAreWeighedByTheirSteps) {
