@@ -23,10 +23,11 @@ tools::Recording run_of(const plant::AxisParameters& truth, bool sensors) {
 }
 
 /// What is told of a table that is so much heavier than the source's axis has it.
-std::optional<NamedEffect> told(double factor, bool sensors) {
+std::optional<NamedEffect> told(double factor, bool sensors, bool weighed = true) {
   auto truth = plant::source_axis();
   truth.guide_mass_kg *= factor;
-  const std::vector runs{run_of(truth, sensors)};
+  std::vector runs{run_of(truth, sensors)};
+  if (!weighed) runs.front().channels.erase(std::string(tools::channel::force_sensor_N));
   const tests::FittedRuns fitted(runs, plant::source_axis());
   return payload_in_mass(fitted.fitter, fitted.fit, robust_covariance(fitted.model, fitted.fit));
 }
@@ -46,6 +47,11 @@ TEST(PayloadInMass, IsToldWithItsSizeWhereTheForceIsRecorded) {
 
 TEST(PayloadInMass, IsToldOfATableThatIsMoreThanAThirdHeavierThanAFileCanBeOff) {
   EXPECT_TRUE(told(1.45, true).has_value());
+}
+
+TEST(PayloadInMass, AForceSensorWeighsTheTableByItself) {
+  EXPECT_TRUE(told(1.39, true).has_value());
+  EXPECT_FALSE(told(1.39, true, false).has_value());
 }
 
 TEST(PayloadInMass, ANumberThatIsOffAsNumbersAreIsNone) {
