@@ -192,6 +192,13 @@ TEST(ScrewGrowth, IsNoWrongLead) {
   EXPECT_FALSE(can_be(5.8e-5, 6.1e-5)) << "as long as it will ever be";
 }
 
+TEST(ThermalFriction, TakesMoreThanAFewPerCent) {
+  for (const char* id : {"thermal_friction", "thermal_friction_of_all"}) {
+    EXPECT_FALSE(worth_naming({&hypothesis(id), {0.031, 12.0, 0.0}}, plant::source_axis())) << id;
+    EXPECT_TRUE(worth_naming({&hypothesis(id), {0.05, 12.0, 0.0}}, plant::source_axis())) << id;
+  }
+}
+
 TEST(FrictionDrift, IsNotOverWithinAMove) {
   const auto can_be = [](double time_constant_s, double second_run) {
     return possible({&hypothesis("friction_drift"), {-0.03, time_constant_s, 0.0, second_run, 0.0, 0.0}},
