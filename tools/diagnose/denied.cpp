@@ -24,15 +24,6 @@ std::vector<Suspect> named_of(const Diagnosis& result, const SearchResult& found
   return named;
 }
 
-/// How many times as far off the names leave what was not fitted.
-double farther_off(const std::map<std::string, ChannelFigures>& unseen) {
-  constexpr double nothing = 1e-12;
-  double sum = 0.0;
-  for (const auto& [channel, error] : unseen)
-    sum += std::log(std::max(nothing, error.after) / std::max(nothing, error.recalibrated));
-  return std::exp(sum / static_cast<double>(std::max<std::size_t>(1, unseen.size())));
-}
-
 /// Do the names do enough on unseen runs, in a channel that is farther off with them, to have brought it there? Otherwise it
 /// is the numbers beside them.
 bool brought_it_there(const Diagnosis& result) {
@@ -47,14 +38,22 @@ bool brought_it_there(const Diagnosis& result) {
 
 }  // namespace
 
+double times_as_far_off(const std::map<std::string, ChannelFigures>& unseen, double ChannelFigures::* than) {
+  constexpr double nothing = 1e-12;
+  double sum = 0.0;
+  for (const auto& [channel, error] : unseen)
+    sum += std::log(std::max(nothing, error.after) / std::max(nothing, error.*than));
+  return std::exp(sum / static_cast<double>(std::max<std::size_t>(1, unseen.size())));
+}
+
 bool taken_back_if_denied(Diagnosis& result, const SearchResult& found) {
-  const double ratio = farther_off(result.holdout);
+  const double ratio = times_as_far_off(result.holdout, &ChannelFigures::recalibrated);
   auto named = named_of(result, found);
   const auto is_number = [](const Suspect& one) { return one.hypothesis->number_of_the_model; };
   const double most = std::ranges::all_of(named, is_number) ? numbers_denied_ratio : denied_ratio;
   if (named.empty() || result.unknown || ratio < most) return false;
   if (!brought_it_there(result)) return false;
-  if (farther_off(result.holdout_inverse) < borne_out_ratio) return false;
+  if (times_as_far_off(result.holdout_inverse, &ChannelFigures::recalibrated) < borne_out_ratio) return false;
   const auto is_plain = [&](const Found& one) { return one.error_ratio > beyond_denial_ratio && is_named(result, one); };
   if (ratio < much_farther_off && std::ranges::any_of(found.found, is_plain)) return false;
   result.denied_by_unseen = ratio;
@@ -69,7 +68,8 @@ bool left_out_if_of_harm(Diagnosis& result, const SearchResult& found) {
   constexpr double farther = 1.02;
   if (!result.effects.empty() || (result.unknown && result.unknown->mode)) return false;
   const auto worse = [](const auto& channel) { return channel.second.after > farther * channel.second.recalibrated; };
-  const bool of_harm = result.unknown ? farther_off(result.holdout) > farther : std::ranges::any_of(result.holdout, worse);
+  const bool of_harm = result.unknown ? times_as_far_off(result.holdout, &ChannelFigures::recalibrated) > farther
+                                      : std::ranges::any_of(result.holdout, worse);
   if (!of_harm) return false;
   result.updated = extended(found.recalibrated.model).common;
   return true;

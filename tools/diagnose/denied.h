@@ -27,6 +27,9 @@ inline constexpr double least_share_of_harm = 0.8;
 /// stop that the held-out run does not strike), false ones 1.43 at most.
 inline constexpr double beyond_denial_ratio = 2.0, much_farther_off = 1.6;
 
+/// How many times as far off what is told leaves runs that were not fitted (geometric mean over the channels).
+[[nodiscard]] double times_as_far_off(const std::map<std::string, ChannelFigures>& unseen, double ChannelFigures::* than);
+
 /// @param result with its figures on unseen runs
 /// @return are the names taken back? Then the result has them as suspects, and its axis is the recalibrated one
 [[nodiscard]] bool taken_back_if_denied(Diagnosis& result, const SearchResult& found);

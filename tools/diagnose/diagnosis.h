@@ -62,6 +62,7 @@ struct Diagnosis {
   Energy energy_before, energy_after;
   std::vector<Suspect> suspects;  ///< beyond chance, too weak to be named or denied by unseen runs
   double denied_by_unseen = 0.0;  ///< the suspects had been named, but left unseen runs so many times as far off; 0: not so
+  double numbers_denied_by_unseen = 0.0;  ///< recalibrated numbers left unseen runs so many times as far off as the file's
   NextExperiment next;
   double detection_limit_N = 0.0;  ///< RMS of the weakest effect that would have been named
   bool cut_short = false;  ///< the closed loop had simulated as much as it may: what it would still have asked is left out

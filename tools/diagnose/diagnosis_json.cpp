@@ -124,6 +124,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
     out["suspects"].push_back(
         {{"id", told_id(*s.hypothesis)}, {"strength", s.strength}, {"p_false_alarm", s.p_false_alarm}});
   if (diagnosis.denied_by_unseen > 0.0) out["denied_by_unseen"] = diagnosis.denied_by_unseen;
+  if (diagnosis.numbers_denied_by_unseen > 0.0) out["numbers_denied_by_unseen"] = diagnosis.numbers_denied_by_unseen;
   out["detection_limit_N"] = diagnosis.detection_limit_N;
   out["updated_axis"] = updated_axis;
   out["figures"] = tools::to_json(diagnosis.pictures);

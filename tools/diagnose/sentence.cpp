@@ -103,6 +103,9 @@ std::string in_words(const ReadingStructure& reading) {
 
 std::string outcome_of(const Diagnosis& diagnosis) {
   const auto& verdict = diagnosis.verdict;
+  if (verdict == "agrees" && diagnosis.numbers_denied_by_unseen > 0.0)
+    return fmt::format("Nothing is missing that could be named; an effect of {:.2g} N rms would have been.",
+                       diagnosis.detection_limit_N);
   if (verdict == "agrees")
     return fmt::format("Model and recording agree; an effect of {:.2g} N rms would have been named.",
                        diagnosis.detection_limit_N);
@@ -161,6 +164,11 @@ std::string summary_of(const Diagnosis& diagnosis) {
         " What had been found for it ({}) leaves runs that were not fitted {:.1f} times as far off as the recalibrated "
         "numbers alone: it stands for something else, and is not named.",
         list_of(ids_of(diagnosis.suspects)), diagnosis.denied_by_unseen);
+  if (diagnosis.numbers_denied_by_unseen > 0.0)
+    text += fmt::format(
+        " Numbers that the fitted runs ask for leave runs that were not fitted {:.2f} times as far off as the file's own, "
+        "which the updated axis keeps.",
+        diagnosis.numbers_denied_by_unseen);
   if (diagnosis.motor_presliding_m > 0.0)
     text += fmt::format(
         " The motor's friction sets in over about {:.2g} um after each reversal, not at once: so it does in the updated "
