@@ -192,6 +192,14 @@ TEST(ScrewGrowth, IsNoWrongLead) {
   EXPECT_FALSE(can_be(5.8e-5, 6.1e-5)) << "as long as it will ever be";
 }
 
+TEST(HiddenFrictionCompensation, HasSetInWellBelowTheFastestSpeedThatIsLookedFor) {
+  const auto can_be = [](double speed_m_per_s) {
+    return possible({&hypothesis("hidden_friction_compensation"), {0.016, speed_m_per_s, 0.0, 1.0}}, plant::source_axis());
+  };
+  EXPECT_TRUE(can_be(0.009));
+  EXPECT_FALSE(can_be(0.02));
+}
+
 TEST(ThermalFriction, TakesMoreThanAFewPerCent) {
   for (const char* id : {"thermal_friction", "thermal_friction_of_all"}) {
     EXPECT_FALSE(worth_naming({&hypothesis(id), {0.031, 12.0, 0.0}}, plant::source_axis())) << id;

@@ -17,12 +17,14 @@ using namespace tools::diagnosis;
 
 /// How much of the remainder of runs beside a spring of so many newtons per metre repeats, and whether that is `unknown`.
 struct Weighed {
-  Structure structure;
+  Structure structure, structure_with_the_name;
   bool with_nothing_named = false, with_a_name = false;
 };
 
 /// @param noise_N of the command, white, at the table
-Weighed weighed(double spring_N_per_m, double noise_N = 0.0) {
+/// @param name what is told of it; by default a trace of something else
+Weighed weighed(double spring_N_per_m, double noise_N = 0.0,
+                const Candidate& name = {plant::source_axis(), {{&hypothesis("cogging"), {1e-4, 0.0, 8.0}}}}) {
   auto truth = plant::source_axis();
   if (spring_N_per_m > 0.0) truth.effects.push_back(tests::effect("cable_spring", {{"stiffness_N_per_m", spring_N_per_m}}));
   tools::Case data = tests::short_case(truth, plant::source_axis());
@@ -33,13 +35,16 @@ Weighed weighed(double spring_N_per_m, double noise_N = 0.0) {
       torque_Nm += noise_N > 0.0 ? noise_Nm(chance) : 0.0;
   const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
   const Fitter fitter(model, data.axis);
-  const Candidate nothing{data.axis, {}}, name{data.axis, {{&hypothesis("cogging"), {1e-4, 0.0, 8.0}}}};
+  const Candidate nothing{data.axis, {}};
   SearchResult found;
   found.recalibrated.residual = model.residual(data.axis, {});
+  const auto left_by = [&](const Candidate& final) {
+    return fitter.structure().remaining(model.residual(final.axis, final.effects));
+  };
   const auto unknown = [&](const Candidate& final) {
     return beyond_the_catalogue(fitter, found, final, [](std::string_view) {});
   };
-  return {fitter.structure().remaining(found.recalibrated.residual), unknown(nothing), unknown(name)};
+  return {left_by(nothing), left_by(name), unknown(nothing), unknown(name)};
 }
 
 TEST(BeyondTheCatalogue, ALittleStructureIsUnknownWhereNothingIsNamed) {
@@ -94,6 +99,20 @@ TEST(BeyondTheCatalogue, MuchStructureIsUnknownBesideANameToo) {
   ASSERT_GT(much.structure.structured_N(), 0.5);
   EXPECT_TRUE(much.with_nothing_named);
   EXPECT_TRUE(much.with_a_name);
+}
+
+// Of less structure than a third a name must explain half.
+TEST(BeyondTheCatalogue, ANameThatLeavesMoreStructureThanItExplainsTakesABite) {
+  const auto unknown_with = [](double told_share) {
+    constexpr double spring_N_per_m = 100.0, noise_N = 1.8;
+    const Candidate told{plant::source_axis(), {{&hypothesis("cable_spring"), {told_share * spring_N_per_m, 0.0}}}};
+    const Weighed made = weighed(spring_N_per_m, noise_N, told);
+    EXPECT_GT(made.structure_with_the_name.share, least_share_of_much) << made.structure_with_the_name.structured_N();
+    EXPECT_LT(made.structure_with_the_name.share, 0.3);
+    return made.with_a_name;
+  };
+  EXPECT_TRUE(unknown_with(0.15));
+  EXPECT_FALSE(unknown_with(0.4));
 }
 
 // A force on the table that a noisy motor hides from the sum shows in the force sensor.
