@@ -119,7 +119,7 @@ class Diagnosing {
   void take_as_unknown(const Learned& learned) {
     result_.verdict = "unknown";
     result_.unknown = learned;
-    if (finding_.unknown) tell_its_frequency(fitter_, told_, *result_.unknown);
+    if (finding_.unknown) tell_what_no_table_holds(fitter_, told_, *result_.unknown);
     result_.updated = result_.unknown->mode ? with_mode(forward_, fitter_, told_, *result_.unknown)
                                             : with_table(forward_, fitter_, told_, learned);
   }

@@ -94,6 +94,9 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   if (diagnosis.unknown && diagnosis.unknown->sweep)
     out["unknown"]["sweep"] = {{"rate_Hz_per_s", diagnosis.unknown->sweep->rate_Hz_per_s},
                                {"amplitude_N", diagnosis.unknown->sweep->amplitude_N}};
+  if (diagnosis.unknown && diagnosis.unknown->dropouts)
+    out["unknown"]["dropouts"] = {{"share_of_torque", diagnosis.unknown->dropouts->share},
+                                  {"moments", diagnosis.unknown->dropouts->moments}};
   if (diagnosis.unknown_reading) out["unknown"] = of(*diagnosis.unknown_reading);
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/dropouts.h"
 #include "tools/diagnose/fit.h"
 #include "tools/diagnose/ringing.h"
 #include "tools/diagnose/sweep.h"
@@ -24,6 +25,7 @@ struct Learned {
   bool on_the_table = false;                                       ///< of what the table's own force sensor shows
   std::optional<Mode> mode;                                        ///< a part that rings, in place of the table
   std::optional<Sweep> sweep;                                      ///< a frequency that runs up or down, likewise
+  std::optional<Dropouts> dropouts;                                ///< moments at which the torque fails, likewise
 };
 
 /// The axis that explains most of runs that it was not learned from; of a single run, of every other second. Learned from

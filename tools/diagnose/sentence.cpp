@@ -120,6 +120,14 @@ std::string outcome_of(const Diagnosis& diagnosis) {
         "hold it: when it begins no run says of another.",
         diagnosis.unknown->remainder_N, diagnosis.unknown->sweep->amplitude_N, diagnosis.unknown->low,
         diagnosis.unknown->high, diagnosis.unknown->sweep->rate_Hz_per_s);
+  if (verdict == "unknown" && diagnosis.unknown->dropouts)
+    return fmt::format(
+        "The mismatch is real and none of the known effects explains it: at {} moments, some milliseconds each, the axis "
+        "lacks "
+        "{:.0f} % of the commanded torque. The drive does not give there what it is told to. The updated axis does not hold "
+        "it: "
+        "when it comes no run says of another.",
+        diagnosis.unknown->dropouts->moments, 100.0 * diagnosis.unknown->dropouts->share);
   if (verdict == "unknown" && diagnosis.unknown->axis == Where::frequency)
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a part that swings on a "

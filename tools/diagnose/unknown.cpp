@@ -64,12 +64,18 @@ bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learn
          table_N > smallest_table_N * learned.newton;
 }
 
-void tell_its_frequency(const Fitter& fitter, const Candidate& told, Learned& learned) {
+void tell_what_no_table_holds(const Fitter& fitter, const Candidate& told, Learned& learned) {
   const Vector residual = fitter.model().residual(told.axis, told.effects);
   learned.sweep = sweep_of(fitter.model(), residual);
   if (learned.sweep) {
     learned.axis = Where::frequency;
     learned.low = learned.sweep->low_Hz, learned.high = learned.sweep->high_Hz;
+    return;
+  }
+  learned.dropouts = dropouts_of(fitter.model(), told);
+  if (learned.dropouts) {
+    learned.axis = Where::time;
+    learned.low = learned.dropouts->first_s, learned.high = learned.dropouts->last_s;
     return;
   }
   tell_what_rings(fitter.structure().remaining(residual), learned);

@@ -17,9 +17,9 @@ namespace feedtwin::tools::diagnosis {
 /// Two laws of speed that together leave a table over speed are no law of it: a third is.
 [[nodiscard]] bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learned& learned);
 
-/// Where a part that rings is most of it, it acts at that part's frequency, and where a frequency runs up or down, along
-/// that; no table holds either.
-void tell_its_frequency(const Fitter& fitter, const Candidate& told, Learned& learned);
+/// Where a part that rings is most of it, it acts at that part's frequency, where a frequency runs up or down, along that,
+/// and where the torque fails for moments, at these.
+void tell_what_no_table_holds(const Fitter& fitter, const Candidate& told, Learned& learned);
 
 /// The model as the closed loop has its numbers, with the table where that brings the runs of the fit closer; without one
 /// that is of no use.

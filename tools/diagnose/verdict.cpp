@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/dropouts.h"
 #include "tools/diagnose/reading_structure.h"
 #include "tools/diagnose/structure.h"
 #include "tools/diagnose/sweep.h"
@@ -99,6 +100,10 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
   if (const auto sweep = nothing_named ? sweep_of(fitter.model(), residual) : std::nullopt) {
     progress(
         fmt::format("a force of {:.2g} N runs from {:.3g} to {:.3g} Hz", sweep->amplitude_N, sweep->low_Hz, sweep->high_Hz));
+    return true;
+  }
+  if (const auto dropouts = nothing_named ? dropouts_of(fitter.model(), final) : std::nullopt) {
+    progress(fmt::format("{:.0f} % of the commanded torque fail at {} moments", 100.0 * dropouts->share, dropouts->moments));
     return true;
   }
   const auto on_the_table = [&](const Vector& left) { return stands_out_on_the_table(structure_of.of_the_table(left)); };

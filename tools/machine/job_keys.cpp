@@ -16,7 +16,7 @@ namespace {
 using J = MachineJob;
 
 // clang-format off: a line a key
-constexpr std::array table{
+constexpr std::array job_table{
     JobKey{"spindle.inertia_kgm2", [](J& j) -> double& { return j.machine.spindle.inertia_kgm2; }, 1e-9, 10.0, "J_M, Table 5"},
     JobKey{"spindle.ke0_W", [](J& j) -> double& { return j.machine.spindle.ke0_W; }, 0.0, 1e5, "k_e0, Table 5"},
     JobKey{"spindle.ke1_Ws_per_rad", [](J& j) -> double& { return j.machine.spindle.ke1_Ws_per_rad; }, 0.0, 1e3, "k_e1, Table 5"},
@@ -92,7 +92,7 @@ void check(const MachineJob& job, const TomlFile& file) {
 }  // namespace
 
 std::span<const JobKey> job_keys() noexcept {
-  return table;
+  return job_table;
 }
 
 void apply_known(MachineJob& job, TomlFile& file) {
@@ -102,7 +102,7 @@ void apply_known(MachineJob& job, TomlFile& file) {
     job.machine.spindle =
         file.word("spindle.motor", {"A", "B"}, "A") == "A" ? plant::spindle_motor_A() : plant::spindle_motor_B();
   }
-  for (const auto& key : table) key.in(job) = file.number(key.key, key.lowest, key.highest, key.in(job));
+  for (const auto& key : job_table) key.in(job) = file.number(key.key, key.lowest, key.highest, key.in(job));
   job.machine.tool.teeth =
       static_cast<int>(file.integer("tool.teeth", 1, plant::MillingForce::most_teeth, job.machine.tool.teeth));
   if (file.has("auxiliary.pump_policy")) {

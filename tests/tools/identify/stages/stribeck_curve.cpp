@@ -11,8 +11,8 @@
 namespace feedtwin::tools {
 namespace {
 
-double logarithmic(std::mt19937_64& random, double low, double high) {
-  return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(random));
+double logarithmic(std::mt19937_64& random, double lowest, double highest) {
+  return std::exp(std::uniform_real_distribution<double>(std::log(lowest), std::log(highest))(random));
 }
 
 StribeckFit draw(std::mt19937_64& random) {
