@@ -27,7 +27,7 @@ namespace feedtwin::tools::diagnosis {
 
 /// Do the recalibrated numbers alone bring every channel near what they would leave of recordings that they had made? Then
 /// nothing is left that a force could make, whatever the inverse model sees, which knows a yielding screw by halves. Of a
-/// machine with a weight of 3 N and 78 N/um it was 2.1 times noise at most; of eight outside the catalogue 14 and more.
+/// machine with a weight of 3 N and 78 N/um it was 2.1 times noise at most; of 22 outside the catalogue 5.4 and more.
 /// @param numbers the recalibrated numbers alone
 [[nodiscard]] bool numbers_reach_noise(const ForwardModel& forward, const Fitter& fitter, const Candidate& numbers,
                                        const std::function<void(std::string_view)>& progress);
