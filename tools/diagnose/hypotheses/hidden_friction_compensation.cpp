@@ -29,8 +29,8 @@ Grid shapes_for(const std::vector<Track>& runs) {
   return grid;
 }
 
-/// One that has hardly set in at the fastest speed that is looked for is a law of speed, and none of a drive's: a torque that
-/// sags above a speed came out so.
+/// One that has hardly set in at the fastest speed that is looked for is a law of speed, and none of a drive's: a torque
+/// that sags above a speed came out so.
 constexpr double fastest_m_per_s = 0.02;
 
 bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
