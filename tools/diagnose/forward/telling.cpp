@@ -22,8 +22,8 @@ struct Step {
 constexpr Step all_of_it{5.0, 0.9, least_nats_by_channel, 0.0};
 // The third: of 35 that were asked in four sets one true rise of breakaway had 1404 nats, 9.0 deviations and 1.40; false
 // ones within its ratio and share had 138 nats at most.
-constexpr std::array steps{all_of_it, Step{1.5, 0.45, least_nats_by_channel, 3.0}, Step{1.3, 0.45, 1000.0, 6.0},
-                           Step{1.2, 0.0, 4000.0, 7.0}};
+constexpr std::array known_steps{all_of_it, Step{1.5, 0.45, least_nats_by_channel, 3.0}, Step{1.3, 0.45, 1000.0, 6.0},
+                                 Step{1.2, 0.0, 4000.0, 7.0}};
 // a gain moves its sensor's reading by as little as the numbers leave it: there what the runs say must be the louder
 constexpr Step of_readings{1.05, 0.0, 1000.0, 6.0};
 // A true torque constant of 15 % had 3396 nats, 10.1 deviations, 267 nearer, a sensor 1.59 times as close and 43 % of its
@@ -62,7 +62,7 @@ Telling telling_of(const Hypothesis& h, const Answered& a) {
   if (h.number_of_the_model && a.nearer_nominal < -clearly_nearer) return Telling::nothing;
   if (would_go_again(h, a)) return Telling::nothing;
   const double least_deviations = absorbed ? least_deviations_by_runs : 0.0;
-  const bool closer = std::ranges::any_of(steps, [&](const Step& step) { return step.holds(a, least_deviations); });
+  const bool closer = std::ranges::any_of(known_steps, [&](const Step& step) { return step.holds(a, least_deviations); });
   const bool surely_read = h.only_readings && a.slight && of_readings.holds(a, 0.0);
   const bool nearer_the_file = absorbed && a.nearer_nominal >= far_from_nominal && by_the_file.holds(a, 0.0);
   const bool held_elsewhere = absorbed && a.nearer_nominal >= least_nearer && most_of_it.holds(a, 0.0);
