@@ -170,7 +170,8 @@ class Diagnosing {
     told_.axis = data_.axis;
     if (numbers_stand_for_the_unknown(result_)) {
       result_.suspects.clear();
-      take_as_unknown(learn_remainder(model_, told));
+      result_.verdict = "unknown";
+      result_.unknown = learn_remainder(model_, told);
     }
     take_the_files_numbers(result_, extended(told_).common);
     show();

@@ -24,8 +24,8 @@ struct Squares {
 
 /// Do the names only take a bite of something else? Right names left 0.07 of the structure at most in 192 made cases where a
 /// third of the remainder was structure, beside a real record's own 0.28; false ones, of three cases outside the catalogue,
-/// 0.41 and more. Of less structure they must leave more than they explain: of 600 answers with names that left a seventh of
-/// the remainder one did, half of a law of speed for a hump of friction at one.
+/// 0.41 and more. Of less structure they must leave more than they explain: of some 500 answers one had such names, a law
+/// of speed for a hump of friction at one.
 bool only_a_bite(const Structure& after, const Squares& squares) {
   constexpr double least_share = 0.3, least_N = 0.3, least_left = 0.35, more_than_explained = 0.5;
   const double least = after.share > least_share ? least_left : more_than_explained;

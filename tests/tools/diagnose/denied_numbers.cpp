@@ -16,7 +16,7 @@ namespace {
 
 using namespace tools::diagnosis;
 
-/// Of a command and a sensor, this many times as far off as by the file's numbers, and a hundredth of noise.
+/// Of a command and a sensor, this many times as far off as by the file's numbers, which leave ten times the noise.
 Diagnosis recalibrated_to(double command_times, double sensor_times) {
   Diagnosis result;
   result.verdict = "recalibrate";

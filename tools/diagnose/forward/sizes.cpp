@@ -83,10 +83,11 @@ bool leaves_the_unknown(const Fitter& fitter, const Candidate& by_inverse_model,
 /// A change of a channel that is worth telling, as a share of what it is off by. Right names of three challenge sets changed
 /// some channel by 0.38 and more; a breakaway that was none, by 0.012. What stands on every unseen fold and is surely no
 /// nothing may be little beside a noisy channel: a screw's growth 0.025 of a scale's.
-double least_change(const Found* named, double from_nothing, bool missed) {
-  constexpr double told = 0.03, doubtless = 0.05, held = 0.015, surely = 10.0, least_strength = 0.25, least_deviations = 3.0;
+/// @param told by what its own deviations or the runs say
+double least_change(const Found* named, double from_nothing, bool missed, bool told) {
+  constexpr double usual = 0.03, untold = 0.05, held = 0.015, surely = 10.0, least_strength = 0.25;
   if (missed && named->held_everywhere && named->strength > least_strength && from_nothing > surely) return held;
-  return missed || from_nothing > least_deviations ? told : doubtless;
+  return told ? usual : untold;
 }
 
 /// Of a channel's error, as a share of it.
@@ -149,7 +150,7 @@ void drop_sizeless(const ForwardModel& forward, const Fitter& fitter, const Cand
     const bool agreed =
         (named != nullptr && named->by_closed_loop) ||
         share_of_size(fit.model.effects[e], by_inverse_model) > (not_missed ? least_share_not_missed : least_share);
-    const double least = least_change(named, from_nothing, missed);
+    const double least = least_change(named, from_nothing, missed, told);
     const bool sure = named != nullptr && named->missed_nats > surely_missed_nats;
     const bool shows =
         possible(fit.model.effects[e], fit.model.axis) && (sure || (agreed && largest_change(with, less) > least));
