@@ -211,21 +211,30 @@ Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without,
   return told;
 }
 
-double largest_beside(const InverseModel& model, const Fit& fit, const std::vector<Fit>& less, std::size_t effect,
-                      const Bar& bar) {
-  const auto own = strengths(model, fit, less[effect], fit.model.effects[effect].hypothesis->about_reversals, bar);
-  const auto equation = static_cast<std::size_t>(std::ranges::max_element(own) - own.begin());
+double share_beside(const InverseModel& model, const Fit& fit, const std::vector<Fit>& less, std::size_t effect,
+                    const Bar& bar) {
+  constexpr double shows = 1.0 / 3.0;  // of where it shows most
+  const auto& effects = fit.model.effects;
+  const auto own = strengths(model, fit, less[effect], effects[effect].hypothesis->about_reversals, bar);
   const auto there = rows_of(model, fit, less[effect]);
-  double largest = 0.0;
-  for (std::size_t other = 0; other < less.size(); ++other)
-    if (other != effect && worth_naming(fit.model.effects[other], fit.model.axis))
-      largest = std::max(largest, strengths(model, fit, less[other], false, bar, there)[equation]);
-  return largest;
+  std::vector<double> beside(own.size(), 0.0);
+  for (std::size_t other = 0; other < less.size(); ++other) {
+    if (other == effect || !worth_naming(effects[other], fit.model.axis)) continue;
+    Fit numbers_stay;
+    numbers_stay.residual = model.residual(fit.model.axis, without(fit.model, other).effects);
+    const auto refitted = strengths(model, fit, less[other], false, bar, there);
+    const auto by_itself = strengths(model, fit, numbers_stay, false, bar, there);
+    for (std::size_t e = 0; e < own.size(); ++e) beside[e] = std::max(beside[e], std::min(refitted[e], by_itself[e]));
+  }
+  double share = 0.0;
+  for (std::size_t e = 0; e < own.size(); ++e)
+    if (own[e] >= shows * std::ranges::max(own)) share = std::max(share, own[e] / std::max(1e-9, beside[e]));
+  return share;
 }
 
-bool hidden_beside(double largest_beside, const Verdict& verdict, const Unseen& unseen, const Bar& bar) {
+bool hidden_beside(double share, const Verdict& verdict, const Unseen& unseen, const Bar& bar) {
   const bool leaves_next_to_nothing = unseen.everywhere && verdict.strength > bar.by_itself;
-  return !verdict.far_off && !leaves_next_to_nothing && verdict.strength < bar.beside * largest_beside;
+  return !verdict.far_off && !leaves_next_to_nothing && share < bar.beside;
 }
 
 Eigen::MatrixXd robust_covariance(const InverseModel& model, const Fit& fit) {

@@ -44,14 +44,16 @@ struct Unseen {
 [[nodiscard]] Unseen on_unseen(const InverseModel& model, const Fit& with, const Fit& without, const Hypothesis& hypothesis,
                                const Verdict& verdict, const Bar& bar);
 
-/// Where an effect acts and shows most, the strength of the strongest other one: what its model leaves over is there too.
+/// Strength that an effect has, of the strongest other one's where it acts: what that one's model leaves over is there too.
+/// In the equation where that is most, of those that it shows in. The other counts by what it does itself: without clipping
+/// of power that is given back the numbers bend and move the forces too, which it never acts on.
 /// @param less fits without each effect
-[[nodiscard]] double largest_beside(const InverseModel& model, const Fit& fit, const std::vector<Fit>& less,
-                                    std::size_t effect, const Bar& bar);
+[[nodiscard]] double share_beside(const InverseModel& model, const Fit& fit, const std::vector<Fit>& less,
+                                  std::size_t effect, const Bar& bar);
 
 /// May it be what an imperfect model of a stronger effect leaves over?
-/// @param largest_beside the strength of the strongest other one, where this one acts
-[[nodiscard]] bool hidden_beside(double largest_beside, const Verdict& verdict, const Unseen& unseen, const Bar& bar);
+/// @param share that it has of the strongest other one
+[[nodiscard]] bool hidden_beside(double share, const Verdict& verdict, const Unseen& unseen, const Bar& bar);
 
 /// Covariance of the unknowns, widened to what a delete-a-group jackknife over seconds finds: the laws are not exact and
 /// the noise is not of one colour, so that rows say less than they seem to.

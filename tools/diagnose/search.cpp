@@ -245,7 +245,7 @@ class Search {
                             effect.hypothesis->id, verdict.gain, unseen.gain, unseen.folds, bar_.folds, verdict.surprise,
                             verdict.strength));
       everywhere[i] = unseen.everywhere;
-      const bool hidden = hidden_beside(largest_beside(fitter_.model(), fit_, less, i, bar_), verdict, unseen, bar_);
+      const bool hidden = hidden_beside(share_beside(fitter_.model(), fit_, less, i, bar_), verdict, unseen, bar_);
       if (!unseen.holds || !verdict.enough || hidden || !possible(effect, fit_.model.axis)) {
         drop(i, less[i].model, verdict);
         return false;

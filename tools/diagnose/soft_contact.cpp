@@ -27,6 +27,7 @@ bool worth_telling(const Active& active, const plant::AxisParameters& now, const
 
 std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fit& fit) {
   constexpr double softened = 0.17, surely_softened = 0.18, least_yield_m = 5e-6;
+  constexpr double most_yield_m = 5e-4;  // none is half a millimetre deep: a stop that was struck bends the numbers so
   const Hypothesis& own = hypothesis("presliding_memory");
   const auto takes_it_up = [&](const NamedEffect& one) {
     return one.hypothesis == &own || easily_confused(*one.hypothesis, own) || one.hypothesis->id == "screw_compliance";
@@ -37,7 +38,8 @@ std::optional<NamedEffect> memory_in_the_bristle(const Diagnosis& told, const Fi
     return std::nullopt;
   const auto& now = bristle->now;
   const double force_N = mean(fit.model.axis.ball_screw.coulomb_N), yields_m = force_N / now.value;
-  if (now.value > softened * bristle->was || now.high > surely_softened * bristle->was || yields_m < least_yield_m)
+  if (now.value > softened * bristle->was || now.high > surely_softened * bristle->was || yields_m < least_yield_m ||
+      yields_m > most_yield_m)
     return std::nullopt;
   // of a screw whose friction hardly counts beside the guide's, the bristle takes what any contact leaves: on another
   // generator's axes with nothing hidden 0.05 and 0.13 of the file's were left, with 3 to 5 % of the friction

@@ -222,6 +222,27 @@ TEST(Fitter, ANumberThatTheRunsSayNothingOfDoesNotKeepTheOthersFromMoving) {
   EXPECT_NEAR(fit.model.axis.guide_mass_kg, truth.guide_mass_kg, 0.02 * truth.guide_mass_kg);
 }
 
+// Power that is given back and clipped bends the numbers where it is not named, and with them the forces, which show a
+// delay. A spring acts on the forces itself.
+TEST_F(Judged, AnEffectIsHiddenByWhatAnotherDoesItselfAlone) {
+  const auto share_beside_the = [&](const char* other, std::vector<double> size) {
+    Fit fit;
+    fit.model = {axis, {{&hypothesis("input_delay"), {3e-4}}, {&hypothesis(other), std::move(size)}}};
+    fit.residual = model.residual(axis, fit.model.effects);
+    std::vector<Fit> less(2, fit);
+    const Vector of_a_spring =
+        model.residual(axis, {{&hypothesis("cable_spring"), {200.0, 0.0}}}) - model.residual(axis, {});
+    for (const auto& s : model.segments()) {
+      if (model.equations()[s.equation].power || of_a_spring.segment(s.start, s.size).isZero()) continue;
+      less[0].residual.segment(s.start, s.size).array() += 0.6;
+      less[1].residual.segment(s.start, s.size).array() += 170.0;
+    }
+    return share_beside(model, fit, less, 0, Bar{});
+  };
+  EXPECT_GT(share_beside_the("regeneration_clipped", {1.0}), 0.1);
+  EXPECT_LT(share_beside_the("cable_spring", {1e6, 0.0}), 0.02);
+}
+
 // A lead's wave beside lost counts that are 250 times what is left over: it leaves a seventh, and so in every fold.
 TEST(HiddenBeside, WhatLeavesNextToNothingIsNotWhatAnotherModelLeaves) {
   const auto hidden = [](double strength, bool everywhere) {
@@ -229,7 +250,7 @@ TEST(HiddenBeside, WhatLeavesNextToNothingIsNotWhatAnotherModelLeaves) {
     verdict.strength = strength;
     Unseen unseen;
     unseen.everywhere = everywhere;
-    return hidden_beside(250.0, verdict, unseen, Bar{});
+    return hidden_beside(strength / 250.0, verdict, unseen, Bar{});
   };
   EXPECT_FALSE(hidden(7.0, true));
   EXPECT_TRUE(hidden(7.0, false));

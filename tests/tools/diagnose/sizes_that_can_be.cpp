@@ -111,6 +111,10 @@ TEST(PreslidingMemory, IsToldFromABristleThatAloneHoldsIt) {
   fit.model.axis.guide.coulomb_N = guides_N;
   fit.model.axis.ball_screw.coulomb_N = {file_N_per_m * 4e-7, file_N_per_m * 4e-7};
   EXPECT_FALSE(told(0.1, 0.004)) << "over 4 um a bristle of a tenth yields too";
+  fit.model.axis.ball_screw.coulomb_N = {file_N_per_m * 8e-5, file_N_per_m * 8e-5};
+  EXPECT_FALSE(told(0.1, 0.004)) << "over 0.8 mm no friction does";
+  fit.model.axis.ball_screw.coulomb_N = {file_N_per_m * 4e-5, file_N_per_m * 4e-5};
+  EXPECT_TRUE(told(0.1, 0.004)) << "0.4 mm";
 }
 
 TEST(HardStop, MayBeABufferButNoSpringOfTheWholeTravel) {
@@ -200,10 +204,11 @@ TEST(HiddenFrictionCompensation, HasSetInWellBelowTheFastestSpeedThatIsLookedFor
   EXPECT_FALSE(can_be(0.02));
 }
 
-TEST(ThermalFriction, TakesMoreThanAFewPerCent) {
+TEST(ThermalFriction, OfAFewPerCentIsNotOverAtOnce) {
   for (const char* id : {"thermal_friction", "thermal_friction_of_all"}) {
-    EXPECT_FALSE(worth_naming({&hypothesis(id), {0.031, 12.0, 0.0}}, plant::source_axis())) << id;
-    EXPECT_TRUE(worth_naming({&hypothesis(id), {0.05, 12.0, 0.0}}, plant::source_axis())) << id;
+    EXPECT_FALSE(worth_naming({&hypothesis(id), {0.031, 0.12, 0.0}}, plant::source_axis())) << id;
+    EXPECT_TRUE(worth_naming({&hypothesis(id), {0.013, 23.0, 0.0}}, plant::source_axis())) << id;
+    EXPECT_TRUE(worth_naming({&hypothesis(id), {0.05, 0.12, 0.0}}, plant::source_axis())) << id;
   }
 }
 

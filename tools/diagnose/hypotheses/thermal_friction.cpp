@@ -54,10 +54,10 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
   return q[0] > 0.0;
 }
 
-/// Warm-up takes a tenth of the friction and more; what a contact's law simplifies looks like one of 3 %, over at once.
+/// What a contact's law simplifies looks like a warm-up of 3 % that 0.12 J bring about; a true one of 1.3 % took 23 J.
 bool finding(std::span<const double> q, const plant::AxisParameters& /*axis*/) {
-  constexpr double least_reduction = 0.04;
-  return q[0] > least_reduction;
+  constexpr double least_reduction = 0.04, over_at_once_J = 1.0;
+  return q[0] > least_reduction || q[1] > over_at_once_J;
 }
 
 }  // namespace
