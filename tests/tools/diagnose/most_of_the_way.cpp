@@ -79,6 +79,24 @@ TEST(IsUnknown, NotWhereTheClosedLoopGoesItsWayByTheNames) {
   EXPECT_EQ(made.unknown_with({}), std::pair(true, true));
 }
 
+TEST(BesideTheNames, StaysWhatIsOfNoSizeToBeNamedOrRestsOnNoForce) {
+  const OnASpot made;
+  SearchResult found;
+  found.recalibrated.model = {OnASpot::with_the_spot(), {}};
+  found.whitening = made.fitter.colour_of(made.model.residual(made.data.axis, {}));
+  const Active spot{&hypothesis("local_friction"), {OnASpot::height_N, OnASpot::centre_m, OnASpot::half_width_m, 0.0}},
+      stiff_screw{&hypothesis("screw_compliance"), {1.0 / 3e8, 7.6}};
+  ASSERT_FALSE(worth_naming(stiff_screw, made.data.axis));
+  const auto beside = beside_the_names(made.fitter, found, {made.data.axis, {stiff_screw, spot}});
+  ASSERT_EQ(beside.effects.size(), 1U);
+  EXPECT_EQ(beside.effects.front().hypothesis, stiff_screw.hypothesis);
+  EXPECT_GT(beside.axis.guide.coulomb_N.pos, made.data.axis.guide.coulomb_N.pos)
+      << "refitted, so that it holds the spot's mean";
+  const auto alone = beside_the_names(made.fitter, found, {made.data.axis, {spot}});
+  EXPECT_TRUE(alone.effects.empty());
+  EXPECT_EQ(alone.axis.effects.size(), 1U) << "the recalibrated numbers as they were found";
+}
+
 TEST(IsUnknown, NotWhereTheNumbersAloneBringTheClosedLoopToItsNoise) {
   const OnASpot made;
   SearchResult found;

@@ -52,11 +52,20 @@ bool numbers_reach_noise(const ForwardModel& forward, const Fitter& fitter, cons
   return most < about_noise;
 }
 
+Candidate beside_the_names(const Fitter& fitter, const SearchResult& found, const Candidate& model) {
+  Candidate rest = model;
+  std::erase_if(rest.effects, [&](const Active& active) {
+    return worth_naming(active, model.axis) && rests_on_force(*active.hypothesis);
+  });
+  if (rest.effects.empty()) return found.recalibrated.model;
+  return fitter.fit(rest, found.whitening, refit_iterations).model;
+}
+
 bool is_unknown(const ForwardModel& forward, const Fitter& fitter, const SearchResult& found, const Candidate& model,
                 const std::function<void(std::string_view)>& progress) {
   if (!beyond_the_catalogue(fitter, found, model, progress)) return false;
   if (names_no_force(model)) return !numbers_reach_noise(forward, fitter, found.recalibrated.model, progress);
-  return !names_go_most_of_the_way(forward, fitter, found.recalibrated.model, model, progress);
+  return !names_go_most_of_the_way(forward, fitter, beside_the_names(fitter, found, model), model, progress);
 }
 
 }  // namespace feedtwin::tools::diagnosis
