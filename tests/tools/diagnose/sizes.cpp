@@ -78,6 +78,27 @@ TEST(Sizes, WhatOneEngineFindsTenTimesAsLargeAsTheOtherIsTakenBack) {
   EXPECT_EQ(left_of(0.03, -5.0), 0U) << "the closed loop does better without";
 }
 
+TEST(Sizes, AboutReversalsTheInverseModelsSizeIsNoMeasureOfWhatIsMissed) {
+  const Cogged made;
+  const auto stays = [&made](const char* id, std::vector<double> q, std::vector<double> by_inverse_model,
+                             double missed_nats) {
+    const Candidate model{made.data.axis, {{&hypothesis(id), std::move(q)}}};
+    Fit fit = made.fitter.linearised(model, made.whitening);
+    SearchResult result;
+    result.found.emplace_back().effect = model.effects[0];
+    result.found[0].missed_nats = missed_nats;
+    Eigen::MatrixXd covariance = 1e-12 * Eigen::MatrixXd::Identity(fit.covariance.rows(), fit.covariance.cols());
+    const Candidate inverse{made.data.axis, {{&hypothesis(id), std::move(by_inverse_model)}}};
+    drop_sizeless(made.forward, made.fitter, inverse, result, fit, covariance, silent);
+    return !fit.model.effects.empty();
+  };
+  const std::vector<double> memory{20.0, 2e-5}, six_times{120.0, 2e-5};
+  EXPECT_TRUE(stays("presliding_memory", memory, memory, 0.0));
+  EXPECT_TRUE(stays("presliding_memory", memory, six_times, 150.0));
+  EXPECT_FALSE(stays("presliding_memory", memory, six_times, 50.0));
+  EXPECT_FALSE(stays("cogging", {0.01, 0.0, 8.0}, {0.06, 0.0, 8.0}, 150.0)) << "which acts everywhere";
+}
+
 // What every unseen stretch bears out may be little beside a noisy channel.
 TEST(Sizes, WhatStandsOnEveryUnseenFoldMayBeLittleBesideNoise) {
   const Cogged made;
