@@ -102,4 +102,8 @@ std::optional<Dropouts> dropouts_of(const InverseModel& model, const Candidate& 
   return std::nullopt;
 }
 
+bool torque_fails_for_moments(const InverseModel& model, const Candidate& recalibrated, const Candidate& named) {
+  return dropouts_of(model, recalibrated) && dropouts_of(model, named);
+}
+
 }  // namespace feedtwin::tools::diagnosis

@@ -20,4 +20,9 @@ struct Dropouts {
 /// @return none of fewer than eight moments, or where a fifth of them lacks another share
 [[nodiscard]] std::optional<Dropouts> dropouts_of(const InverseModel& model, const Candidate& at);
 
+/// Without names and with those of the inverse model, which then stand for it: no simulation is needed to see that. A
+/// damaged spot looks like it until it is named.
+[[nodiscard]] bool torque_fails_for_moments(const InverseModel& model, const Candidate& recalibrated,
+                                            const Candidate& named);
+
 }  // namespace feedtwin::tools::diagnosis

@@ -43,7 +43,7 @@ class Finder {
     fitter_.take_effects(motor_as_it_sets_in(forward_, fitter_, progress_));
     now_.found = search(fitter_, bar_for(given_), progress_);
     now_.fit = now_.found.final;
-    now_.unknown = torque_fails_for_moments();
+    now_.unknown = torque_fails_for_moments(fitter_.model(), now_.found.recalibrated.model, now_.fit.model);
     if (now_.unknown) return;
     settled_ = ask_how_stiff(forward_, fitter_, now_.found, now_.fit, progress_);
     search_anew_if_the_motor_sets_in();
@@ -63,13 +63,6 @@ class Finder {
     if (dropped_what_is_not_missed() && look_again_at_the_runs()) dropped_what_is_not_missed();
     settled_ = ask_for_gain_in_numbers(forward_, fitter_, now_.found, now_.fit, std::move(settled_), progress_);
     ask_again_what_is_unknown(names_asked, now_.fit.model);
-  }
-
-  /// Without names and with those of the inverse model, which then stand for it: no simulation is needed to see that. A
-  /// damaged spot looks like it until it is named.
-  [[nodiscard]] bool torque_fails_for_moments() const {
-    const auto fails = [&](const Fit& fit) { return dropouts_of(fitter_.model(), fit.model).has_value(); };
-    return fails(now_.found.recalibrated) && fails(now_.fit);
   }
 
   /// A name that went may have stood for what none of the catalogue is.

@@ -83,6 +83,22 @@ TEST(Dropouts, AFewAreNotEnough) {
   EXPECT_FALSE(found_in(runs).has_value());
 }
 
+// At a steady speed it opposes every pass for as long and by as much.
+TEST(Dropouts, ADamagedSpotLooksLikeThemUntilItIsNamed) {
+  const std::vector<double> narrow{25.0, 0.004, 0.0005, 0.0};
+  plant::AxisParameters truth = plant::source_axis();
+  truth.effects.push_back(
+      tests::effect("local_friction", {{"height_N", narrow[0]}, {"centre_m", narrow[1]}, {"half_width_m", narrow[2]}}));
+  tests::MadeRun made{.motion = "triangle", .duration_s = 12.0, .sensors = false};
+  made.settings.speed_m_per_s = 0.1, made.settings.amplitude_m = 0.03;
+  const auto runs = std::vector{tests::make_recording(truth, made)};
+  const InverseModel model(make_tracks(runs, plant::source_axis()), plant::source_axis());
+  const Candidate nothing{plant::source_axis(), {}}, spot{plant::source_axis(), {{&hypothesis("local_friction"), narrow}}};
+  EXPECT_TRUE(dropouts_of(model, nothing).has_value());
+  EXPECT_TRUE(torque_fails_for_moments(model, nothing, nothing));
+  EXPECT_FALSE(torque_fails_for_moments(model, nothing, spot));
+}
+
 TEST(Dropouts, AreBeyondTheCatalogueAndSaidWithWhatFails) {
   const auto runs = runs_with([](double torque_Nm) { return 0.5 * torque_Nm; });
   const InverseModel model(make_tracks(runs, plant::source_axis()), plant::source_axis());
