@@ -57,7 +57,7 @@ Hypothesis local_friction() {
           .sentence = "a damaged spot at {centre_m} m, {half_width_m} m to either side, adds {height_N} N of friction",
 
           .least_strength = 0.25,
-          .least_gain = 100.0,  // one bump of a washboard 53; true ones 1279 and more
+          .least_gain = 100.0,        // one bump of a washboard 53; true ones 1279 and more
           .least_missed_nats = 60.0,  // of thirteen true ones the least 77, a false one beside slip elements 39
           .confused_with = {"position_friction"},
           .shapes_for = places_of,
