@@ -81,6 +81,16 @@ TEST(NatsToStay, ACompensationNeedsFewerWhereItSetsInFasterThanAReversal) {
   EXPECT_DOUBLE_EQ(nats_to_stay(one), 1400.0) << "after the set point is not after the motion";
 }
 
+TEST(NatsToStay, AWarmUpOfAFewPerCentMustBeMissedByMore) {
+  for (const char* id : {"thermal_friction", "thermal_friction_of_all"}) {
+    Found one;
+    one.effect = {&hypothesis(id), {0.007, 7.4, 0.0}};
+    EXPECT_DOUBLE_EQ(nats_to_stay(one), 400.0) << id;
+    one.effect.q[0] = 0.1;
+    EXPECT_DOUBLE_EQ(nats_to_stay(one), 150.0) << id;
+  }
+}
+
 TEST(NatsToStay, FrictionByTheLoadNeedsMoreThanADelayLeavesOver) {
   EXPECT_GT(nats_to_stay(found("load_dependent_friction")), 64.0);
   EXPECT_LT(nats_to_stay(found("load_dependent_friction")), 166.0);

@@ -19,7 +19,8 @@ constexpr double found_by_both = 15.0;
 /// Times what it takes: a name that is missed so is not asked again when another has gone or the numbers are better.
 constexpr double surely_missed = 10.0;
 
-/// A name that was asked, and the runs without it.
+/// A name that was asked, and the runs without it. That structure comes back saves none that follows any law's mistakes: a
+/// mass that brakes came and went as a warm-up of 0.7 %, missed by 179.
 struct Lacking {
   const Hypothesis* hypothesis;
   Ruling rest;
@@ -67,7 +68,8 @@ class Asked {
                       "from nominal",
                       in_words(now, settled.model.axis), -named->missed_nats, farther));
       double short_of_nats = cannot_be ? 1e300 : nats_to_stay(*named, farther) - named->missed_nats;
-      if (short_of_nats > 0.0 && !cannot_be && structure_comes_back(fitter_, named->missed_nats, fit.residual, rest.fit)) {
+      if (short_of_nats > 0.0 && !cannot_be && !hypothesis->follows_any_law &&
+          structure_comes_back(fitter_, named->missed_nats, fit.residual, rest.fit)) {
         progress_(fmt::format("closed loop: without {} structure comes back that no other name has", hypothesis->id));
         short_of_nats = 0.0;
       }
