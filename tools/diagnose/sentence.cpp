@@ -123,10 +123,8 @@ std::string outcome_of(const Diagnosis& diagnosis) {
   if (verdict == "unknown" && diagnosis.unknown->dropouts)
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: at {} moments, some milliseconds each, the axis "
-        "lacks "
-        "{:.0f} % of the commanded torque. The drive does not give there what it is told to. The updated axis does not hold "
-        "it: "
-        "when it comes no run says of another.",
+        "lacks {:.0f} % of the commanded torque. The drive does not give there what it is told to. The updated axis does "
+        "not hold it: when it comes no run says of another.",
         diagnosis.unknown->dropouts->moments, 100.0 * diagnosis.unknown->dropouts->share);
   if (verdict == "unknown" && diagnosis.unknown->axis == Where::frequency)
     return fmt::format(
