@@ -65,12 +65,22 @@ Vector column_of_window(const Track& track, const Vector& stood, std::size_t win
   return row;
 }
 
+/// What the power's numbers do in a window. What the drive draws at rest, the first of them, is each run's own: a run's mean
+/// is no time that it keeps.
+Eigen::RowVectorXd numbers_of_window(const Eigen::Ref<const Eigen::MatrixXd>& powers, std::size_t run, std::size_t runs) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(powers.cols() - 1 + static_cast<Index>(runs));
+  row.head(powers.cols() - 1) = powers.rightCols(powers.cols() - 1).colwise().mean();
+  row[powers.cols() - 1 + static_cast<Index>(run)] = 1.0;
+  return row;
+}
+
 }  // namespace
 
 std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& residual) {
   ReadingRows rows;
   rows.channel = channel::power_W, rows.rows_of_zero = 2.0;
   const WindowRanges ranges(model.tracks());
+  const std::size_t runs = model.tracks().size();
   std::vector<Vector> columns;
   std::vector<Eigen::RowVectorXd> numbers;
   for (const auto& s : model.segments()) {
@@ -88,7 +98,7 @@ std::vector<ReadingRows> rows_of_power(const InverseModel& model, const Vector& 
       rows.velocity_m_per_s.push_back(track.steady_m_per_s.segment(track.meter.starts[window], track.meter.length).mean());
       rows.fold.push_back((static_cast<std::size_t>(t / stretch_of_windows_s) + s.run) % power_folds);
       columns.push_back(column_of_window(track, stood, window, rows.reading.back(), ranges));
-      numbers.push_back(powers.middleRows(track.meter.starts[window], track.meter.length).colwise().mean());
+      numbers.push_back(numbers_of_window(powers.middleRows(track.meter.starts[window], track.meter.length), s.run, runs));
     }
   }
   if (columns.empty()) return {};

@@ -14,24 +14,29 @@
 namespace feedtwin::tools::diagnosis {
 namespace {
 
-constexpr std::array before_s{0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 1000.0};  // the last: all that was, a leaking charge's
+constexpr std::array before_s{0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
+constexpr std::size_t all_before = before_s.size() + 1;  // beside them all that was read, a leaking charge's
+using Earlier = std::array<double, all_before>;
 
 struct ReadingPart {
   Follows follows;
   Index width;
 };
-constexpr std::array reading_parts{ReadingPart{Follows::reading, 20}, ReadingPart{Follows::reading_before, before_s.size()},
+constexpr std::array reading_parts{ReadingPart{Follows::reading, 20}, ReadingPart{Follows::reading_before, all_before},
                                    ReadingPart{Follows::place, 40},   ReadingPart{Follows::speed, 20},
                                    ReadingPart{Follows::motion, 44},  ReadingPart{Follows::use, 2 * fading_s.size()},
                                    ReadingPart{Follows::drive, 24}};
 
-/// m' = (y - m) / T from the first reading on, by time constant.
-std::vector<std::array<double, before_s.size()>> lately(const Vector& reading, double sample_s) {
-  std::vector<std::array<double, before_s.size()>> all(static_cast<std::size_t>(reading.size()));
-  for (auto& m : all.front()) m = reading[0];
-  for (std::size_t k = 1; k < all.size(); ++k)
+/// m' = (y - m) / T of what should be read, by time constant; last the sum of what was read in fact. A row a row.
+std::vector<Earlier> lately(const Vector& should, const Vector& read, Index samples_a_row, double row_s) {
+  std::vector<Earlier> all(static_cast<std::size_t>(should.size()));
+  all.front().fill(should[0]), all.front().back() = 0.0;
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    const auto row = static_cast<Index>(k);
     for (std::size_t i = 0; i < before_s.size(); ++i)
-      all[k][i] = all[k - 1][i] + (reading[static_cast<Index>(k)] - all[k - 1][i]) * sample_s / (before_s[i] + sample_s);
+      all[k][i] = all[k - 1][i] + (should[row] - all[k - 1][i]) * row_s / (before_s[i] + row_s);
+    all[k].back() = all[k - 1].back() + read.segment((row - 1) * samples_a_row, samples_a_row).sum();
+  }
   return all;
 }
 
@@ -49,8 +54,7 @@ struct ReadingRanges {
   }
 };
 
-Vector column_of_reading(const Moment& m, double reading, const std::array<double, before_s.size()>& before,
-                         const ReadingRanges& all) {
+Vector column_of_reading(const Moment& m, double reading, const Earlier& before, const ReadingRanges& all) {
   Index width = 0;
   for (const auto& part : reading_parts) width += part.width;
   Vector row = Vector::Zero(width);
@@ -138,15 +142,17 @@ struct Sensor {
   std::size_t carries_from;
 };
 
-/// What a row of it should read: less what it shows more than the model. With that, noise would follow itself: a force that
-/// disturbs the axis is in the command too, and on an axis with nothing hidden 0.29 of it followed "steps" of the command.
-double should_read(const InverseModel& model, const Sensor& sensor, std::size_t run, Index row, const Vector& recorded,
+/// What the rows of a run should read: less what they show more than the model. With that, noise would follow itself: a
+/// force that disturbs the axis is in the command too, and on an axis with nothing hidden 0.29 of it followed "steps" of the
+/// command; a sensor's coloured noise follows what was read a moment before, 0.34 of it on another.
+Vector should_read(const InverseModel& model, const Sensor& sensor, std::size_t run, const Vector& recorded,
                    const Vector& residual) {
-  double read = 0.0;
+  Vector read = Vector::Zero(force_rows_of(model, run).size);
   for (const auto& s : model.segments()) {
     const auto& e = model.equations()[s.equation];
-    if (s.run == run && s.equation >= sensor.carries_from && !e.slip && !e.power) read += recorded[s.start + row];
-    if (s.run == run && s.equation == sensor.after && !e.slip) read -= residual[s.start + row];
+    if (s.run != run || e.slip || e.power) continue;
+    if (s.equation >= sensor.carries_from) read += recorded.segment(s.start, s.size);
+    if (s.equation == sensor.after) read -= residual.segment(s.start, s.size);
   }
   return read;
 }
@@ -157,21 +163,25 @@ ReadingRows rows_of_sensor(const InverseModel& model, const Sensor& sensor, cons
   rows.of_force = !model.equations()[sensor.after].slip;
   const Vector recorded = model.recorded();
   std::vector<Moment> moments;
-  std::vector<std::array<double, before_s.size()>> earlier;
+  std::vector<Earlier> earlier;
   ReadingRanges ranges;
   for (const auto& s : model.segments()) {
     if (s.equation != sensor.after) continue;
     const Track& track = model.tracks()[s.run];
-    const auto all_earlier = lately(track.*(sensor.record), track.sample_s);
-    const auto of_run = moments_of(model, force_rows_of(model, s.run));
+    const Vector should = should_read(model, sensor, s.run, recorded, residual);
+    const Segment& force_rows = force_rows_of(model, s.run);
+    const Index first = model.sample_of(force_rows, 0), step = model.sample_of(force_rows, 1) - first;
+    const auto all_earlier =
+        lately(should, (track.*(sensor.record)).tail(track.size - first), step, static_cast<double>(step) * track.sample_s);
+    const auto of_run = moments_of(model, force_rows);
     for (std::size_t i = 0; i < of_run.rows.size(); ++i) {
       const auto& m = of_run.moments[i];
       rows.after.push_back(s.start + of_run.rows[i]);
-      rows.reading.push_back(should_read(model, sensor, s.run, of_run.rows[i], recorded, residual));
+      rows.reading.push_back(should[of_run.rows[i]]);
       rows.time_s.push_back(m.time_s), rows.run.push_back(m.run), rows.fold.push_back(m.fold);
       rows.position_m.push_back(m.position_m), rows.velocity_m_per_s.push_back(m.velocity_m_per_s);
       ranges.take(m, rows.reading.back());
-      moments.push_back(m), earlier.push_back(all_earlier[static_cast<std::size_t>(m.sample)]);
+      moments.push_back(m), earlier.push_back(all_earlier[static_cast<std::size_t>(of_run.rows[i])]);
     }
     for (const auto& b : model.segments())
       if (sensor.before && b.equation == *sensor.before && b.run == s.run)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "tests/support/made_case.h"
 #include "tools/diagnose/forward/forward_model.h"
@@ -108,6 +109,15 @@ TEST(ReadingStructure, ALoadThatKeepsTimeIsInThePower) {
   EXPECT_GT(told->share, 0.6);
 }
 
+TEST(ReadingStructure, AMeterThatShowsMoreInEachRunKeepsNoTime) {
+  double offset_W = -0.3;
+  const auto told = told_of([&](tools::Recording& run) {
+    change(run, channel::power_W, [&](double p, std::size_t) { return p + offset_W; });
+    offset_W += 0.3;
+  });
+  EXPECT_FALSE(told.has_value()) << told->channel << " follows " << what_it_follows(*told);
+}
+
 // The coil of a holding brake: on while the axis moves, and 0.4 s more.
 TEST(ReadingStructure, ACoilThatIsLetGoAtRestFollowsHowLongTheAxisHasStood) {
   constexpr double coil_W = 0.5, standstill_m_per_s = 2e-4;
@@ -186,6 +196,21 @@ TEST(ReadingStructure, AChargeThatLeaksIsToldByWhatWasReadBefore) {
   ASSERT_TRUE(told.has_value());
   EXPECT_EQ(told->channel, channel::force_sensor_N);
   EXPECT_EQ(told->follows, Follows::reading_before);
+}
+
+TEST(ReadingStructure, ASensorsColouredNoiseFollowsNothingThoughItFollowsItself) {
+  constexpr double noise_N = 0.6, correlated_s = 0.05;
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal;
+  const auto told = told_of([&](tools::Recording& run) {
+    const double kept = std::exp(-run.sample_s / correlated_s);
+    double n = 0.0;
+    change(run, channel::force_sensor_N, [&](double x, std::size_t) {
+      n = kept * n + std::sqrt(1.0 - kept * kept) * noise_N * normal(generator);
+      return x + n;
+    });
+  });
+  EXPECT_FALSE(told.has_value()) << told->channel << " follows " << what_it_follows(*told);
 }
 
 // More friction of the screw along the travel: command, torque sensor and power show it alike.
