@@ -51,16 +51,16 @@ double strongest_near(const InverseModel& model, const Vector& white, double fre
 /// Of the strongest lines those that act in parts of the runs, as shapes of their own: frequency, ramp, the parts by run.
 void add_windows(std::vector<std::vector<double>>& kept, const InverseModel& model, const Vector& white, const Fit& fit) {
   constexpr std::size_t strongest = 3;
-  // a process does not stop where the speed changes: two had 0 to 0.55 in their cuts, a real screw's ripple 0.81 and more
-  constexpr double most_at_steady_speed = 0.7;
+  // a process does not stop where the speed changes: two had 0 to 0.55 in their cuts, a real screw's ripple 0.81 and more;
+  // one that cuts at steady speeds does at several
+  constexpr double most_at_one_speed = 0.7;
   const std::size_t lines = std::min(strongest, kept.size());
   std::set<long> seen;  // grid points beside each other climb the same line
   for (std::size_t i = 0; i < lines; ++i) {
     const double frequency_Hz = strongest_near(model, white, kept[i][0]);
     if (!seen.insert(std::lround(frequency_Hz / step_Hz)).second) continue;
     auto windows = windows_of_line(model, white, frequency_Hz);
-    if (std::ranges::all_of(windows, &Windows::empty) ||
-        share_at_steady_speed(model.tracks(), windows) > most_at_steady_speed)
+    if (std::ranges::all_of(windows, &Windows::empty) || share_at_one_speed(model.tracks(), windows) > most_at_one_speed)
       continue;
     const Cuts cuts = sharpened(model, model.residual(fit.model.axis, fit.model.effects), frequency_Hz, std::move(windows));
     std::vector<double> shape = kept[i];

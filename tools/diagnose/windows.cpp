@@ -176,9 +176,10 @@ Vector covered(std::span<const Window> windows, double ramp_s, Index samples, do
   return share;
 }
 
-double share_at_steady_speed(const std::vector<Track>& runs, std::span<const Windows> windows) {
-  constexpr double about_s = 0.05, change = 0.03;
-  double steady = 0.0, all = 1e-300;
+double share_at_one_speed(const std::vector<Track>& runs, std::span<const Windows> windows) {
+  constexpr double about_s = 0.05, change = 0.03, alike = 1.1;
+  std::vector<double> steady_m_per_s;
+  std::size_t all = 0;
   for (std::size_t run = 0; run < windows.size(); ++run) {
     const Track& track = runs[run];
     const Vector& v = track.centred_m_per_s;
@@ -187,11 +188,17 @@ double share_at_steady_speed(const std::vector<Track>& runs, std::span<const Win
       for (Index k = std::max(about, static_cast<Index>(window.start_s / track.sample_s));
            k < std::min(track.size - about, static_cast<Index>(window.end_s / track.sample_s)); ++k) {
         if (std::abs(v[k]) < standstill_m_per_s) continue;
-        all += 1.0;
-        steady += std::abs(v[k + about] - v[k - about]) < change * std::abs(v[k]) ? 1.0 : 0.0;
+        ++all;
+        if (std::abs(v[k + about] - v[k - about]) < change * std::abs(v[k])) steady_m_per_s.push_back(std::abs(v[k]));
       }
   }
-  return steady / all;
+  std::ranges::sort(steady_m_per_s);
+  std::size_t most = 0, slowest = 0;
+  for (std::size_t k = 0; k < steady_m_per_s.size(); ++k) {
+    while (steady_m_per_s[k] > alike * steady_m_per_s[slowest]) ++slowest;
+    most = std::max(most, k + 1 - slowest);
+  }
+  return all == 0 ? 0.0 : static_cast<double>(most) / static_cast<double>(all);
 }
 
 std::vector<Windows> windows_of_line(const InverseModel& model, const Vector& white, double frequency_Hz) {

@@ -30,8 +30,9 @@ inline constexpr std::size_t window_parameters = line_runs * most_windows * 2;
 /// their edges costs; otherwise all of a run.
 [[nodiscard]] std::vector<Windows> windows_of_line(const InverseModel& model, const Vector& white, double frequency_Hz);
 
-/// Of the samples in these parts, those at a steady speed: there all that repeats along the screw is a line too.
-[[nodiscard]] double share_at_steady_speed(const std::vector<Track>& runs, std::span<const Windows> windows);
+/// Of the samples in these parts, those at the steady speed, forth and back, that most of them have: there all that repeats
+/// along the screw is a line too.
+[[nodiscard]] double share_at_one_speed(const std::vector<Track>& runs, std::span<const Windows> windows);
 
 /// Of an effect's working parameters, see Hypothesis::first_window; any further run shares the last one's.
 [[nodiscard]] Windows windows_of_run(std::size_t first_window, std::span<const double> q, std::size_t run);

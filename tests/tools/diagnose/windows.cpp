@@ -182,10 +182,13 @@ TEST(Windows, WhatLiesInTheFlatsOfTrapeziaIsAtASteadySpeed) {
   track.centred_m_per_s = Vector::Constant(track.size, 0.1);
   for (Index k = 1000; k < 2000; ++k) track.centred_m_per_s[k] = 0.1 - 2e-4 * static_cast<double>(k - 1000);  // turns round
   track.centred_m_per_s.tail(2000).setConstant(-0.1);
-  const auto share = [&](const Windows& windows) { return share_at_steady_speed({track}, std::vector<Windows>{windows}); };
+  const auto share = [&](const Windows& windows) { return share_at_one_speed({track}, std::vector<Windows>{windows}); };
   EXPECT_GT(share(Windows{{0.1, 0.9}, {2.1, 3.9}}), 0.99);
   EXPECT_LT(share(Windows{{1.1, 1.9}}), 0.01);
   EXPECT_NEAR(share(Windows{{0.5, 1.5}}), 0.5, 0.06);
+  track.centred_m_per_s.tail(2000).setConstant(-0.05);
+  EXPECT_NEAR(share(Windows{{0.1, 0.9}, {2.1, 2.9}}), 0.5, 0.02)
+      << "at another speed what repeats along the screw is no line";
 }
 
 TEST(Windows, ARampIsHalfBeforeEachEdge) {
