@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "plant/effects/registry.h"
 #include "tests/support/made_case.h"
 #include "tools/diagnose/edges.h"
 #include "tools/diagnose/fit.h"
@@ -142,6 +143,23 @@ TEST(Windows, AreEachRunsOwnInTheClosedLoop) {
   EXPECT_LT(error({made.nominal, {process}}), 0.15 * error({made.nominal, {}}));
   set_windows(process.hypothesis->first_window, process.q, std::vector{second, first});
   EXPECT_GT(error({made.nominal, {process}}), error({made.nominal, {}})) << "the wrong way about";
+}
+
+// The axis that is handed on cuts where the first run did; on a run that was not fitted it cuts where that one does.
+TEST(Windows, OfAnAxisThatWasHandedOnGiveWayToThoseOfTheRun) {
+  const Windows first{{0.8, 1.2}, {1.6, 2.2}, {2.6, 3.0}}, unseen{{1.7, 3.1}};
+  Active process{&hypothesis("process_force"), std::vector(hypothesis("process_force").parameters.size(), 0.0)};
+  process.q[0] = amplitude_N, process.q[2 * line_runs] = frequency_Hz;
+  set_windows(process.hypothesis->first_window, process.q, std::vector<Windows>{first});
+  const plant::AxisParameters handed_on = extended({plant::source_axis(), {process}}).common;
+  EXPECT_EQ(handed_on.effects.size(), first.size());
+  set_windows(process.hypothesis->first_window, process.q, std::vector<Windows>{unseen});
+  const AxisByRun axis = with_phases_of({plant::source_axis(), {process}}, handed_on);
+  ASSERT_EQ(axis.of(0).effects.size(), 1U);
+  const auto& entry = *plant::find_effect("process_force");
+  auto cut = axis.of(0).effects.front();
+  EXPECT_EQ(*plant::value_in(cut, entry, "start_s"), unseen[0].start_s);
+  EXPECT_EQ(*plant::value_in(cut, entry, "end_s"), unseen[0].end_s);
 }
 
 TEST(Windows, AreNoneWhereTheProcessNeverStops) {

@@ -44,14 +44,14 @@ void set_phases(AxisByRun& all, const Active& line) {
     set_number(all.runs[run], line, name, std::arg(line.hypothesis->line_of(line.q, run)));
 }
 
-/// One setting a part: the same force in each.
+/// One setting a part: the same force in each. An axis that is handed on has those of another run.
 void set_parts_of(plant::AxisParameters& axis, const Active& active, const Windows& windows) {
   if (windows.empty()) return;
   const auto is_one = [&](const plant::EffectSetting& setting) { return setting.id == active.hypothesis->id; };
   const auto found = std::ranges::find_if(axis.effects, is_one);
   if (found == axis.effects.end()) return;
-  const plant::EffectSetting any = std::move(*found);
-  axis.effects.erase(found);
+  const plant::EffectSetting any = *found;
+  std::erase_if(axis.effects, is_one);
   for (const Window& window : windows) {
     axis.effects.push_back(any);
     const auto& entry = *plant::find_effect(any.id);
