@@ -99,14 +99,14 @@ Gain gain_of(const std::string& name) {
           unexplained(with_key(data, tests::shared_path("practice/" + name + ".key.json")), data)};
 }
 
-constexpr double noise_N = 1.6;  ///< what the case without an effect leaves: 1.35 N, from the encoder's counts
+constexpr double left_by_none_N = 1.6;  ///< what the case without an effect leaves: 1.35 N, from the encoder's counts
 
 TEST(EffectsInPracticeCases, ExplainTheForceToItsNoise) {
   FEEDTWIN_NEEDS_SHARED("practice");
   for (const char* name : {"p03", "p05", "p07", "p08", "p09", "p10"}) {
     const Gain gain = gain_of(name);
-    EXPECT_LT(gain.with.force_N, noise_N) << name;
-    EXPECT_GT(gain.without.force_N, 3.0 * noise_N) << name << " shows nothing to explain";
+    EXPECT_LT(gain.with.force_N, left_by_none_N) << name;
+    EXPECT_GT(gain.without.force_N, 3.0 * left_by_none_N) << name << " shows nothing to explain";
   }
 }
 

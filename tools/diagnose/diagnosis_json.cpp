@@ -97,6 +97,10 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
   if (diagnosis.unknown && diagnosis.unknown->dropouts)
     out["unknown"]["dropouts"] = {{"share_of_torque", diagnosis.unknown->dropouts->share},
                                   {"moments", diagnosis.unknown->dropouts->moments}};
+  if (diagnosis.unknown && diagnosis.unknown->switching)
+    out["unknown"]["switching"] = {{"force_N", diagnosis.unknown->switching->force_N},
+                                   {"share", diagnosis.unknown->switching->share},
+                                   {"switches", diagnosis.unknown->switching->switches}};
   if (diagnosis.unknown_reading) out["unknown"] = of(*diagnosis.unknown_reading);
   for (const auto& effect : diagnosis.effects) {
     out["effects"].push_back(of(effect));

@@ -20,6 +20,7 @@
 #include "tools/diagnose/motor_friction.h"
 #include "tools/diagnose/reported.h"
 #include "tools/diagnose/screen.h"
+#include "tools/diagnose/switching.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -43,7 +44,9 @@ class Finder {
     fitter_.take_effects(motor_as_it_sets_in(forward_, fitter_, progress_));
     now_.found = search(fitter_, bar_for(given_), progress_);
     now_.fit = now_.found.final;
-    now_.unknown = torque_fails_for_moments(fitter_.model(), now_.found.recalibrated.model, now_.fit.model);
+    const Candidate& recalibrated = now_.found.recalibrated.model;
+    now_.unknown = torque_fails_for_moments(fitter_.model(), recalibrated, now_.fit.model) ||
+                   force_switches(fitter_.model(), recalibrated, now_.fit.model);
     if (now_.unknown) return;
     settled_ = ask_how_stiff(forward_, fitter_, now_.found, now_.fit, progress_);
     search_anew_if_the_motor_sets_in();

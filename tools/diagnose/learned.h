@@ -11,6 +11,7 @@
 #include "tools/diagnose/fit.h"
 #include "tools/diagnose/ringing.h"
 #include "tools/diagnose/sweep.h"
+#include "tools/diagnose/switching.h"
 
 namespace feedtwin::tools::diagnosis {
 
@@ -26,6 +27,7 @@ struct Learned {
   std::optional<Mode> mode;                                        ///< a part that rings, in place of the table
   std::optional<Sweep> sweep;                                      ///< a frequency that runs up or down, likewise
   std::optional<Dropouts> dropouts;                                ///< moments at which the torque fails, likewise
+  std::optional<Switching> switching;                              ///< a force that is on or off, likewise
 };
 
 /// The axis that explains most of runs that it was not learned from; of a single run, of every other second. Learned from

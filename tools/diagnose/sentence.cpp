@@ -126,6 +126,13 @@ std::string outcome_of(const Diagnosis& diagnosis) {
         "lacks {:.0f} % of the commanded torque. The drive does not give there what it is told to. The updated axis does "
         "not hold it: when it comes no run says of another.",
         diagnosis.unknown->dropouts->moments, 100.0 * diagnosis.unknown->dropouts->share);
+  if (verdict == "unknown" && diagnosis.unknown->switching)
+    return fmt::format(
+        "The mismatch is real and none of the known effects explains it: a force of {:.3g} N is on or off, with hardly "
+        "anything between ({:.0f} % of what is left over); {} switches were seen, at moments of their own. The updated axis "
+        "does not hold it: when it comes no run says of another.",
+        diagnosis.unknown->switching->force_N, 100.0 * diagnosis.unknown->switching->share,
+        diagnosis.unknown->switching->switches);
   if (verdict == "unknown" && diagnosis.unknown->axis == Where::frequency)
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a part that swings on a "

@@ -78,6 +78,12 @@ void tell_what_no_table_holds(const Fitter& fitter, const Candidate& told, Learn
     learned.low = learned.dropouts->first_s, learned.high = learned.dropouts->last_s;
     return;
   }
+  learned.switching = switching_of(fitter.model(), told);
+  if (learned.switching) {
+    learned.axis = Where::time;
+    learned.low = learned.switching->first_s, learned.high = learned.switching->last_s;
+    return;
+  }
   tell_what_rings(fitter.structure().remaining(residual), learned);
 }
 

@@ -18,7 +18,7 @@ namespace feedtwin::tools::diagnosis {
 [[nodiscard]] bool laws_of_speed_fall_short(const std::vector<NamedEffect>& named, const Learned& learned);
 
 /// Where a part that rings is most of it, it acts at that part's frequency, where a frequency runs up or down, along that,
-/// and where the torque fails for moments, at these.
+/// and where the torque fails for moments or a force is on or off, at these.
 void tell_what_no_table_holds(const Fitter& fitter, const Candidate& told, Learned& learned);
 
 /// The model as the closed loop has its numbers, with the table where that brings the runs of the fit closer; without one

@@ -9,6 +9,7 @@
 #include "tools/diagnose/reading_structure.h"
 #include "tools/diagnose/structure.h"
 #include "tools/diagnose/sweep.h"
+#include "tools/diagnose/switching.h"
 
 namespace feedtwin::tools::diagnosis {
 namespace {
@@ -104,6 +105,10 @@ bool beyond_the_catalogue(const Fitter& fitter, const SearchResult& found, const
   }
   if (const auto dropouts = nothing_named ? dropouts_of(fitter.model(), final) : std::nullopt) {
     progress(fmt::format("{:.0f} % of the commanded torque fail at {} moments", 100.0 * dropouts->share, dropouts->moments));
+    return true;
+  }
+  if (const auto switching = nothing_named ? switching_of(fitter.model(), final) : std::nullopt) {
+    progress(fmt::format("a force of {:.2g} N is on or off, {} switches seen", switching->force_N, switching->switches));
     return true;
   }
   const auto on_the_table = [&](const Vector& left) { return stands_out_on_the_table(structure_of.of_the_table(left)); };
