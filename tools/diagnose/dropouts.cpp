@@ -14,6 +14,13 @@ namespace {
 struct Lack {
   double lacking_N = 0.0, commanded_N = 0.0, at_s = 0.0;
   double from_s = 0.0, to_s = 0.0;
+  double least_N = 0.0, most_N = 0.0;  ///< of its samples
+
+  /// A step of the encoder in an even motion is an acceleration and the opposite one.
+  [[nodiscard]] bool one_way() const {
+    constexpr double other_way = 0.5;
+    return std::min(-least_N, most_N) < other_way * std::abs(lacking_N);
+  }
 };
 
 Vector mean_about(const Vector& y, Index samples) {
@@ -45,6 +52,7 @@ void gather_moments(const Track& track, const Vector& lacking_N, const Vector& c
     last = k;
     Lack& lack = moments.back();
     lack.to_s = now_s;
+    lack.least_N = std::min(lack.least_N, off_N), lack.most_N = std::max(lack.most_N, off_N);
     if (std::abs(off_N) > std::abs(lack.lacking_N))
       lack.lacking_N = off_N, lack.commanded_N = commanded_N[k], lack.at_s = now_s;
   }
@@ -62,7 +70,7 @@ std::optional<Dropouts> in_common(const std::vector<Lack>& moments) {
   std::size_t same = 0;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const bool short_enough = moments[i].to_s - moments[i].from_s < longest_s;
-    if (short_enough && std::abs(shares[i] - share) < alike * std::abs(share)) ++same;
+    if (short_enough && moments[i].one_way() && std::abs(shares[i] - share) < alike * std::abs(share)) ++same;
   }
   if (share < least || share > most) return std::nullopt;
   if (static_cast<double>(same) < least_alike * static_cast<double>(shares.size())) return std::nullopt;
