@@ -218,6 +218,34 @@ TEST(Sizes, WhatIsNotFarFromNothingIsTakenBackHoweverMuchItIsMissed) {
   }
 }
 
+TEST(Sizes, WhatIsMissedByFarAndMultipliesAChannelsErrorStaysHoweverWideItIs) {
+  constexpr double weight_N = 20.0;
+  auto truth = plant::source_axis();
+  truth.effects.push_back(tests::effect("gravity", {{"force_N", weight_N}}));
+  tools::Case data;
+  data.axis = plant::source_axis();
+  for (const char* motion : {"sine", "triangle"})
+    data.fit.push_back(tests::make_recording(truth, {.motion = motion, .duration_s = 8.0, .sensors = false}));
+  const InverseModel model(make_tracks(data.fit, data.axis), data.axis);
+  const Fitter fitter(model, data.axis);
+  const ForwardModel forward(data.fit, data);
+  const Candidate weighed{data.axis, {{&hypothesis("gravity"), {weight_N}}}};
+  const Whitening whitening = fitter.colour_of(model.residual(data.axis, weighed.effects));
+  for (const double missed_nats : {6000.0, 4000.0}) {
+    Fit fit = fitter.linearised(weighed, whitening);
+    SearchResult result;
+    result.whitening = whitening;
+    result.found.emplace_back().effect = weighed.effects.front();
+    result.found.front().missed_nats = missed_nats;
+    Eigen::MatrixXd covariance = fit.covariance;
+    covariance.bottomRows(1).setZero();
+    covariance.rightCols(1).setZero();
+    covariance.bottomRightCorner<1, 1>().setConstant(std::pow(weight_N / 6.0, 2));
+    drop_sizeless(forward, fitter, {data.axis, {}}, result, fit, covariance, silent);
+    EXPECT_EQ(fit.model.effects.size(), missed_nats > 5000.0 ? 1U : 0U) << missed_nats;
+  }
+}
+
 /// Runs with a cable's spring, and both engines on them.
 struct OnACable {
   static constexpr double stiffness_N_per_m = 600.0;
