@@ -99,6 +99,7 @@ json to_json(const Diagnosis& diagnosis, const std::string& updated_axis) {
                                   {"moments", diagnosis.unknown->dropouts->moments}};
   if (diagnosis.unknown && diagnosis.unknown->switching)
     out["unknown"]["switching"] = {{"force_N", diagnosis.unknown->switching->force_N},
+                                   {"opposes_motion", diagnosis.unknown->switching->opposes},
                                    {"share", diagnosis.unknown->switching->share},
                                    {"switches", diagnosis.unknown->switching->switches}};
   if (diagnosis.unknown_reading) out["unknown"] = of(*diagnosis.unknown_reading);

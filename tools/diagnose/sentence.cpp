@@ -128,11 +128,11 @@ std::string outcome_of(const Diagnosis& diagnosis) {
         diagnosis.unknown->dropouts->moments, 100.0 * diagnosis.unknown->dropouts->share);
   if (verdict == "unknown" && diagnosis.unknown->switching)
     return fmt::format(
-        "The mismatch is real and none of the known effects explains it: a force of {:.3g} N is on or off, with hardly "
-        "anything between ({:.0f} % of what is left over); {} switches were seen, at moments of their own. The updated axis "
+        "The mismatch is real and none of the known effects explains it: a force of {:.3g} N{} is on or off, with hardly "
+        "anything between ({:.0f} % of what is left over); {} switches were seen. The updated axis "
         "does not hold it: when it comes no run says of another.",
-        diagnosis.unknown->switching->force_N, 100.0 * diagnosis.unknown->switching->share,
-        diagnosis.unknown->switching->switches);
+        diagnosis.unknown->switching->force_N, diagnosis.unknown->switching->opposes ? " against the motion" : "",
+        100.0 * diagnosis.unknown->switching->share, diagnosis.unknown->switching->switches);
   if (verdict == "unknown" && diagnosis.unknown->axis == Where::frequency)
     return fmt::format(
         "The mismatch is real and none of the known effects explains it: {:.2g} N rms, of which a part that swings on a "

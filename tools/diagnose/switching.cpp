@@ -66,15 +66,10 @@ bool both_ways(const std::vector<Block>& blocks, const TwoValues& values) {
   return true;
 }
 
-}  // namespace
-
-std::optional<Switching> switching_of(const InverseModel& model, const Candidate& at) {
+/// @param least_N that a force is told from
+std::optional<Switching> switching_in(const std::vector<Block>& blocks, double least_N) {
   constexpr std::size_t least_blocks = 100, least_switches = 8, least_blocks_a_switch = 4;
-  constexpr double most_left = 0.15, least_N = 1.0;
-  const auto left_N =
-      model.force_residuals_N(at.axis, model.prepared(at.axis, at.effects, model.contacts(at.axis, at.effects)));
-  std::vector<Block> blocks;
-  for (std::size_t run = 0; run < left_N.size(); ++run) gather_blocks(model.tracks()[run], left_N[run], blocks);
+  constexpr double most_left = 0.15;
   if (blocks.size() < least_blocks) return std::nullopt;
   std::vector<double> forces_N;
   for (const Block& b : blocks) forces_N.push_back(b.force_N);
@@ -85,10 +80,26 @@ std::optional<Switching> switching_of(const InverseModel& model, const Candidate
     ++found.switches;
     found.first_s = std::min(found.first_s, blocks[i].at_s), found.last_s = std::max(found.last_s, blocks[i].at_s);
   }
-  const bool told = values.left < most_left && found.force_N > least_N * newton_of(model.nominal()) &&
-                    found.switches >= least_switches && least_blocks_a_switch * found.switches <= blocks.size() &&
-                    both_ways(blocks, values);
+  const bool told = values.left < most_left && found.force_N > least_N && found.switches >= least_switches &&
+                    least_blocks_a_switch * found.switches <= blocks.size() && both_ways(blocks, values);
   return told ? std::optional(found) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Switching> switching_of(const InverseModel& model, const Candidate& at) {
+  constexpr double least = 1.0;
+  const double least_N = least * newton_of(model.nominal());
+  const auto left_N =
+      model.force_residuals_N(at.axis, model.prepared(at.axis, at.effects, model.contacts(at.axis, at.effects)));
+  std::vector<Block> blocks;
+  for (std::size_t run = 0; run < left_N.size(); ++run) gather_blocks(model.tracks()[run], left_N[run], blocks);
+  auto found = switching_in(blocks, least_N);
+  if (found) return found;
+  for (Block& b : blocks) b.force_N *= b.forth ? 1.0 : -1.0;
+  found = switching_in(blocks, least_N);
+  if (found) found->opposes = true;
+  return found;
 }
 
 bool force_switches(const InverseModel& model, const Candidate& recalibrated, const Candidate& named) {

@@ -65,7 +65,17 @@ TEST(Switching, IsToldWithTheForceBetweenItsTwoValues) {
     EXPECT_NEAR(found->force_N, std::abs(size_N), 0.05 * std::abs(size_N));
     EXPECT_GT(found->share, 0.9);
     EXPECT_GT(found->switches, 15U);
+    EXPECT_FALSE(found->opposes);
   }
+}
+
+TEST(Switching, AgainstTheMotionIsToldToo) {
+  auto chips_N = now_and_then(8.0, 0.5);
+  const auto found =
+      found_in(opposed_by([&](double at_s, double velocity) { return std::copysign(chips_N(at_s, velocity), velocity); }));
+  ASSERT_TRUE(found.has_value());
+  EXPECT_TRUE(found->opposes);
+  EXPECT_NEAR(found->force_N, 8.0, 0.5);
 }
 
 TEST(Switching, NoiseIsNoneHoweverSlowItWavers) {
