@@ -73,7 +73,8 @@ TEST(Dropouts, NeitherAreMomentsAtWhichMoreActsThanWasAskedForNorNothingAtAll) {
   EXPECT_FALSE(found_in(runs_with([](double /*torque_Nm*/) { return 0.0; })).has_value());
 }
 
-// At a steady speed, here of a twelfth of a step a sample less than whole ones, all are as large, and so is what is commanded: 554 moments lacked 7 % of it.
+// At a steady speed, here of a twelfth of a step a sample less than whole ones, all are as large, and so is what is
+// commanded: 554 moments lacked 7 % of it.
 TEST(Dropouts, NeitherAreTheStepsOfACoarseEncoder) {
   std::vector<tools::Recording> runs;
   for (const double speed_m_per_s : {0.05292, 0.05792}) {
