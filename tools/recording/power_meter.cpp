@@ -136,10 +136,10 @@ double likely_limit_Nm(std::span<const Recording> recordings, const plant::AxisP
   for (const Recording& recording : recordings)
     for (const double command_Nm : recording.at(channel::torque_cmd_Nm)) most_Nm = std::max(most_Nm, std::abs(command_Nm));
   std::pair best{std::numeric_limits<double>::infinity(), most_Nm};
-  for (double share = 1.0; share > 0.1; share *= 0.95) {
-    const double limit_Nm = share * most_Nm;
+  constexpr int steps = 45;  // of a twentieth each, down to a tenth
+  double limit_Nm = most_Nm;
+  for (int step = 0; step < steps; ++step, limit_Nm *= 0.95)
     best = std::min(best, {explained(recordings, {}, laws, Errors::alike, axis, limit_Nm).left, limit_Nm});
-  }
   return best.second;
 }
 

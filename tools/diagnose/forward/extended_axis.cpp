@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "plant/effects/registry.h"
 #include "tools/diagnose/hypotheses/shapes.h"
@@ -50,14 +51,14 @@ void set_parts_of(plant::AxisParameters& axis, const Active& active, const Windo
   const auto is_one = [&](const plant::EffectSetting& setting) { return setting.id == active.hypothesis->id; };
   const auto found = std::ranges::find_if(axis.effects, is_one);
   if (found == axis.effects.end()) return;
-  const plant::EffectSetting any = *found;
+  std::vector<plant::EffectSetting> parts(windows.size(), *found);
   std::erase_if(axis.effects, is_one);
-  for (const Window& window : windows) {
-    axis.effects.push_back(any);
-    const auto& entry = *plant::find_effect(any.id);
-    *plant::value_in(axis.effects.back(), entry, "start_s") = window.start_s;
-    *plant::value_in(axis.effects.back(), entry, "end_s") = window.end_s;
+  const auto& entry = *plant::find_effect(active.hypothesis->id);
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    *plant::value_in(parts[i], entry, "start_s") = windows[i].start_s;
+    *plant::value_in(parts[i], entry, "end_s") = windows[i].end_s;
   }
+  axis.effects.insert(axis.effects.end(), parts.begin(), parts.end());
 }
 
 /// The first run's are what is handed on.
