@@ -81,8 +81,7 @@ std::optional<Dropouts> in_common(const std::vector<Lack>& moments) {
 }  // namespace
 
 std::optional<Dropouts> dropouts_of(const InverseModel& model, const Candidate& at) {
-  const auto lacking_N =
-      model.force_residuals_N(at.axis, model.prepared(at.axis, at.effects, model.contacts(at.axis, at.effects)));
+  const auto lacking_N = forces_left_N(model, at);
   for (const Index samples : {1, 3}) {
     std::vector<Lack> moments;
     for (std::size_t run = 0; run < lacking_N.size(); ++run) {

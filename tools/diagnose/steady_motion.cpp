@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/inverse_model.h"
-
 namespace feedtwin::tools::diagnosis {
 
 std::vector<bool> moves_steadily(const Track& track) {
@@ -21,6 +19,10 @@ std::vector<bool> moves_steadily(const Track& track) {
   for (Index k = 0; k < track.size; ++k)
     if (std::abs(track.centred_m_per_s[k]) < slowest_m_per_s) leave_out(k - margin, k + margin + 1);
   return steadily;
+}
+
+std::vector<Vector> forces_left_N(const InverseModel& model, const Candidate& at) {
+  return model.force_residuals_N(at.axis, model.prepared(at.axis, at.effects, model.contacts(at.axis, at.effects)));
 }
 
 }  // namespace feedtwin::tools::diagnosis

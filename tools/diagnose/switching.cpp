@@ -90,8 +90,7 @@ std::optional<Switching> switching_in(const std::vector<Block>& blocks, double l
 std::optional<Switching> switching_of(const InverseModel& model, const Candidate& at) {
   constexpr double least = 1.0;
   const double least_N = least * newton_of(model.nominal());
-  const auto left_N =
-      model.force_residuals_N(at.axis, model.prepared(at.axis, at.effects, model.contacts(at.axis, at.effects)));
+  const auto left_N = forces_left_N(model, at);
   std::vector<Block> blocks;
   for (std::size_t run = 0; run < left_N.size(); ++run) gather_blocks(model.tracks()[run], left_N[run], blocks);
   auto found = switching_in(blocks, least_N);

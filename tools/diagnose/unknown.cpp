@@ -72,18 +72,13 @@ void tell_what_no_table_holds(const Fitter& fitter, const Candidate& told, Learn
     learned.low = learned.sweep->low_Hz, learned.high = learned.sweep->high_Hz;
     return;
   }
-  learned.dropouts = dropouts_of(fitter.model(), told);
-  if (learned.dropouts) {
-    learned.axis = Where::time;
-    learned.low = learned.dropouts->first_s, learned.high = learned.dropouts->last_s;
+  const auto at_moments = [&learned](const auto& found) {
+    if (found) learned.axis = Where::time, learned.low = found->first_s, learned.high = found->last_s;
+    return found.has_value();
+  };
+  if (at_moments(learned.dropouts = dropouts_of(fitter.model(), told)) ||
+      at_moments(learned.switching = switching_of(fitter.model(), told)))
     return;
-  }
-  learned.switching = switching_of(fitter.model(), told);
-  if (learned.switching) {
-    learned.axis = Where::time;
-    learned.low = learned.switching->first_s, learned.high = learned.switching->last_s;
-    return;
-  }
   tell_what_rings(fitter.structure().remaining(residual), learned);
 }
 

@@ -40,8 +40,8 @@ TEST(PreslidingMemory, IsAFindingOnlyWhereNoSimplifiedContactOrYieldingScrewCoul
   EXPECT_FALSE(finding(1.9, 1.3e-5)) << "what is left of a torque constant";
   for (auto* coulomb_N : {&axis.ball_screw.coulomb_N, &axis.guide.coulomb_N}) *coulomb_N = {200.0, 200.0};
   EXPECT_FALSE(finding(80.0, 8e-6)) << "a fifth of what the contacts have";
-  EXPECT_FALSE(finding(330.0, 8e-6)) << "less than half of all friction, as stiff contacts with nothing hidden have it";
-  EXPECT_TRUE(finding(420.0, 8e-6));
+  EXPECT_TRUE(finding(330.0, 8e-6));
+  EXPECT_FALSE(finding(330.0, 4e-6)) << "less than half of all friction, as stiff contacts with nothing hidden have it";
   axis.ball_screw.coulomb_N = {4.0, 4.0};
   axis.guide.coulomb_N = {18.0, 18.0};
   axis.ball_screw.stiffness_N_per_m = 3.7e6;

@@ -181,6 +181,18 @@ TEST(MeterHabit, AWindowThatSpansSeveralReadingsIsTold) {
   }
 }
 
+// What was commanded and not given looks like a part of the window.
+TEST(MeterHabit, OfADriveThatSaturatesIsNoPartOfAWindow) {
+  auto axis = plant::source_axis();
+  axis.effects.push_back(tests::effect("torque_saturation", {{"limit_Nm", 0.3}}));
+  std::vector<Recording> runs;
+  for (const double speed : {0.1, 0.15, 0.2})
+    runs.push_back(tests::make_recording(
+        axis,
+        {.motion = "s_curve", .settings = {.speed_m_per_s = speed, .acceleration_m_per_s2 = 3.0}, .duration_s = 10.0}));
+  EXPECT_EQ(meter_habit(runs, plant::source_axis()).readings_a_window, 1.0);
+}
+
 TEST(MeterHabit, IsNotToldByAFewReadings) {
   auto runs = runs_of_the_plant();
   runs.resize(1);

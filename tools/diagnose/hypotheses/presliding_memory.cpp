@@ -43,17 +43,18 @@ bool possible(std::span<const double> q, const plant::AxisParameters& /*axis*/) 
 /// bristle of 6 um as 11 N over 15 um, of one of 300 nulls as 6 N over 26 um; a screw that yields as up to 3.6 N over 10 um
 /// and more, what was left of a torque constant as 1.9 N over 13 um; over more than that nothing else has it. Where there is
 /// more friction, or a bristle that yields more, so much more is the contact's own; the fit takes what the memory holds from
-/// the screw's friction. On a null of stiff Maxwell slip it took 254 of 558 N: what is less than half of all friction is the
-/// contact's own too, unless it is over a longer way.
+/// the screw's friction. On a null of stiff Maxwell slip it took 254 of 558 N over 3.2 um: less than half of all friction
+/// counts only over more than any of these contacts had.
 bool finding(std::span<const double> q, const plant::AxisParameters& axis) {
-  constexpr double of_any_contact_N = 60.0, of_a_bristle_m = 3e-6;
+  constexpr double of_any_contact_N = 60.0, of_a_bristle_m = 3e-6, of_many_elements_m = 6.3e-6;
   constexpr double of_a_yielding_screw_N = 7.0, of_any_contact_m = 1e-5, of_nothing_else_N = 2.0, of_nothing_else_m = 3e-5;
   constexpr double usual_N = 75.0, usual_m = 1.5e-6;
   const double screw_N = mean(axis.ball_screw.coulomb_N), yields_m = (screw_N + q[0]) / axis.ball_screw.stiffness_N_per_m;
   const double others_N = screw_N + mean(axis.guide.coulomb_N);
   const double force_N = q[0] / std::max(1.0, others_N / usual_N);
   const double distance_m = q[1] / std::max(1.0, yields_m / usual_m);
-  return (force_N > of_any_contact_N && q[1] > of_a_bristle_m && q[0] > others_N) ||
+  const double least_m = q[0] > others_N ? of_a_bristle_m : of_many_elements_m;
+  return (force_N > of_any_contact_N && q[1] > least_m) ||
          (force_N > of_a_yielding_screw_N && distance_m > of_any_contact_m) ||
          (force_N > of_nothing_else_N && distance_m > of_nothing_else_m);
 }
