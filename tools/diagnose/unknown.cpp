@@ -72,13 +72,14 @@ void tell_what_no_table_holds(const Fitter& fitter, const Candidate& told, Learn
     learned.low = learned.sweep->low_Hz, learned.high = learned.sweep->high_Hz;
     return;
   }
-  const auto at_moments = [&learned](const auto& found) {
+  const auto came_at_moments = [&learned](const auto& found) {
     if (found) learned.axis = Where::time, learned.low = found->first_s, learned.high = found->last_s;
     return found.has_value();
   };
-  if (at_moments(learned.dropouts = dropouts_of(fitter.model(), told)) ||
-      at_moments(learned.switching = switching_of(fitter.model(), told)))
-    return;
+  learned.dropouts = dropouts_of(fitter.model(), told);
+  if (came_at_moments(learned.dropouts)) return;
+  learned.switching = switching_of(fitter.model(), told);
+  if (came_at_moments(learned.switching)) return;
   tell_what_rings(fitter.structure().remaining(residual), learned);
 }
 
